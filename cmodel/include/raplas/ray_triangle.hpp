@@ -1,0 +1,53 @@
+// Ray-triangle test and nearest hit, value-exact: entities ray_triangle and nearest_hit.
+#pragma once
+
+#include <cstdint>
+
+#include "raplas/words.hpp"
+
+namespace raplas {
+
+inline constexpr int kRayTriangleStages =
+    kAddStages + (kMulStages + kAddStages) + (kMulStages + 2 * kAddStages) + kAddStages + kMulStages;
+
+/// What a triangle is to a ray: t = t'/d, u = u'/d, v = v'/d, after the sign rule.
+template <typename F>
+struct Solution {
+  bool hit = false;
+  F t;  ///< t'
+  F d;  ///< |N.D|
+  F u;  ///< u'
+  F v;  ///< v'
+};
+
+/// Moeller's test without the division, 33 operations; the sign of N.D goes into t', u', v' and N.D.
+template <typename F>
+[[nodiscard]] constexpr Solution<F> solve(const TriangleWord<F>& triangle, const Vec3<F>& origin,
+                                          const Vec3<F>& direction) noexcept {
+  const Vec3<F> t = triangle.v0 - origin;   // s4
+  const Vec3<F> dxt = cross(direction, t);  // s11
+  const F nd = dot(triangle.n, direction);  // s22
+  const F nt = dot(triangle.n, t);          // s22
+  const F dxt_e2 = dot(dxt, triangle.e2);   // s22
+  const F dxt_e1 = dot(dxt, triangle.e1);   // s22
+  const auto flip = [](F x, bool sign) { return sign ? x.negated() : (x.is_zero() ? F() : x); };
+  Solution<F> s{false, flip(nt, nd.sign()), flip(nd, nd.sign()), flip(dxt_e2, !nd.sign()),
+                flip(dxt_e1, nd.sign())};
+  const F sum = s.u + s.v;  // s26
+  s.hit = !s.t.sign() && !s.t.is_zero() && !s.d.is_zero() && !s.u.sign() && !s.v.sign() &&
+          sum.magnitude() <= s.d.magnitude();
+  return s;
+}
+
+/// t'/d < best.t'/best.d in exact arithmetic; equal: the lower triangle ID; no best hit yet: yes.
+template <typename F>
+[[nodiscard]] constexpr bool nearer(F t, F d, std::uint32_t triangle, const ResultWord<F>& best) noexcept {
+  if (!best.hit) {
+    return true;
+  }
+  const ExactProduct here = exact_product(t, best.d);
+  const ExactProduct there = exact_product(best.t, d);
+  return here < there || (here == there && triangle < best.triangle);
+}
+
+}  // namespace raplas

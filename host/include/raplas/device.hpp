@@ -1,0 +1,108 @@
+// The one interface behind which every tracer stands: double precision, golden model, RTL.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "raplas/constants.hpp"
+
+namespace raplas {
+
+/// A triangle: vertex and the two edges that start there. Its ID is its index.
+struct Triangle {
+  glm::dvec3 v0;
+  glm::dvec3 e1;
+  glm::dvec3 e2;
+};
+
+/// A node of the sphere tree. Its children are the contiguous range first .. first + count - 1:
+/// triangles in a leaf, otherwise nodes.
+struct SphereNode {
+  glm::dvec3 centre;
+  double radius;  ///< encloses every triangle below, measured around `centre`; the devices enlarge it
+  bool leaf;
+  std::uint32_t first;
+  std::uint32_t count;  ///< 1 .. 127
+};
+
+/// What a device keeps in its Sphere and Triangle memories.
+struct DeviceScene {
+  std::vector<Triangle> triangles;
+  std::vector<SphereNode> nodes;
+  std::uint32_t root_first = 0;  ///< root range: a flat list is all nodes
+  std::uint32_t root_count = 0;
+  double max_origin = 0;  ///< no pencil starts farther from the coordinates' zero than this
+};
+
+/// n.x + offset = 0, n of unit length.
+struct Plane {
+  glm::dvec3 normal;
+  double offset;
+};
+
+/// Rays from one origin through a grid of rows x columns points (each 1 .. 16).
+struct Pencil {
+  glm::dvec3 origin{0};
+  int rows = 0;
+  int columns = 0;
+  std::vector<Plane> row_planes;       ///< plane r holds the rays of row r
+  std::vector<Plane> column_planes;    ///< plane c holds the rays of column c
+  std::vector<glm::dvec3> directions;  ///< unit length, ray (r, c) at r * columns + c
+};
+
+/// The nearest hit of a ray in the division-free form: t = t_scaled / d, u = u_scaled / d, v = v_scaled / d.
+/// Values of the 24-bit devices are exact here, so that two devices agree bit by bit if these are equal.
+struct Hit {
+  bool hit = false;
+  std::uint32_t triangle = 0;
+  double t_scaled = 0;
+  double d = 0;  ///< |N.D| > 0 for a hit
+  double u_scaled = 0;
+  double v_scaled = 0;
+
+  [[nodiscard]] double t() const noexcept { return t_scaled / d; }
+  friend bool operator==(const Hit&, const Hit&) = default;
+};
+
+/// Event counts since the scene was loaded, in the order of raplas::Counter.
+using Counters = std::array<std::uint64_t, kNumCounters>;
+
+/// An accelerator that holds one scene and traces pencils through it.
+class IntersectionDevice {
+ public:
+  virtual ~IntersectionDevice() = default;
+
+  /// Loads the scene's memories. Throws std::runtime_error with a one-line reason if it doesn't fit or holds
+  /// a number outside the device's format.
+  virtual void load(const DeviceScene& scene) = 0;
+
+  /// Traces a pencil: one hit for each ray, in the order of Pencil::directions.
+  [[nodiscard]] virtual std::vector<Hit> trace(const Pencil& pencil) = 0;
+
+  /// Counts since load().
+  [[nodiscard]] virtual Counters counters() const = 0;
+
+  /// Clocks simulated since load(), loading pencils and reading results included; 0 if nothing is simulated.
+  [[nodiscard]] virtual std::uint64_t simulated_clocks() const { return 0; }
+};
+
+/// How a device is built.
+struct DeviceOptions {
+  bool guard_bits = true;               ///< false: the paper's adder without guard bits
+  std::size_t sphere_depth = 1U << 20;  ///< words of the Sphere Memory; XC4VSX35: 4096
+  std::size_t triangle_depth = 1U << 20;
+};
+
+/// Makes the device called `name` (reference, model, rtl); throws std::runtime_error for an unknown name,
+/// listing the known ones.
+[[nodiscard]] std::unique_ptr<IntersectionDevice> make_device(const std::string& name,
+                                                              const DeviceOptions& options);
+
+}  // namespace raplas

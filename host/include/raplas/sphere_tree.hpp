@@ -1,0 +1,42 @@
+// Bounding spheres over triangles: the paper's flat list, and a tree.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "raplas/device.hpp"
+
+namespace raplas {
+
+struct TreeOptions {
+  int leaf_size = 4;  ///< most triangles of a leaf, 1 .. 127
+  int width = 4;      ///< most children of an inner node, 2 .. 127 (tree only)
+};
+
+/// A device's scene without max_origin, and where its triangles came from.
+struct SphereTree {
+  DeviceScene scene;
+  std::vector<std::uint32_t> source;  ///< by triangle ID: its index in the list that was built from
+};
+
+/// One level: all spheres are leaves and the root range holds them all, neighbours in space near each other.
+/// Triangles of more than 4 times the median size come last; then ranges are halved at the median centroid
+/// along their longest axis until they fit a leaf. Throws std::runtime_error if there are no triangles, an
+/// option is out of range, or IDs don't fit kIdBits.
+[[nodiscard]] SphereTree build_flat(std::span<const Triangle> triangles, const TreeOptions& options = {});
+
+/// The same splits as a tree; the root range is the root's children. Children of one node lie next to each
+/// other, and so do the triangles below a node. Errors as build_flat().
+[[nodiscard]] SphereTree build_tree(std::span<const Triangle> triangles, const TreeOptions& options = {});
+
+/// Most ranges that may wait on the traversal stack: what the watermark and the leaves in flight leave of it.
+inline constexpr int kMaxStacked = kStackDepth - kStackWatermark - kLeafFifoDepth;
+
+/// Verifies what the devices rely on: every node and triangle is reached exactly once, counts are 1 .. 127,
+/// IDs fit, the triangles below a node lie next to each other, centres are fp24 numbers, each sphere encloses
+/// the triangles below it, and on every path from the root the ranges that hold inner nodes have sum of
+/// (count - 1) <= kMaxStacked. Throws std::runtime_error naming the node that fails.
+void check_tree(const DeviceScene& scene);
+
+}  // namespace raplas

@@ -1,0 +1,156 @@
+// raplas compare: the same picture by every device of this build.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+#include <system_error>
+#include <vector>
+
+#include "commands.hpp"
+#include "hit_records.hpp"
+#include "raplas/output_file.hpp"
+
+namespace raplas {
+namespace {
+
+#ifdef RAPLAS_WITH_RTL
+constexpr bool kWithRtl = true;
+#else
+constexpr bool kWithRtl = false;
+#endif
+
+/// A run with its picture in 8 bits and its hits as result words (none for the reference).
+struct Entry {
+  std::string name;
+  DeviceRun run;
+  std::vector<std::uint8_t> picture;
+  std::vector<HitRecord> hits;
+};
+
+Entry trace(const CompareCommand& command, const Prepared& prepared, const std::string& name) {
+  Entry entry;
+  entry.name = name;
+  std::function<void(std::span<const Hit>)> sink;
+  if (name != "reference") {
+    sink = [&entry](std::span<const Hit> hits) {
+      for (const Hit& hit : hits) {
+        entry.hits.push_back(record_of(hit));
+      }
+    };
+  }
+  entry.run = run_device(prepared, command.settings, name, sink);
+  entry.picture = to_8_bit(entry.run.rendering.image);
+  return entry;
+}
+
+/// Bits in which the hits differ; a ray that only one of them has counts with all its bits.
+std::uint64_t differing_bits(const std::vector<HitRecord>& a, const std::vector<HitRecord>& b) {
+  const std::size_t common = std::min(a.size(), b.size());
+  std::uint64_t bits =
+      static_cast<std::uint64_t>(ResultLayout::kBits) * (std::max(a.size(), b.size()) - common);
+  for (std::size_t k = 0; k < common; ++k) {
+    bits += differing_bits(a[k], b[k]);
+  }
+  return bits;
+}
+
+std::uint64_t differing_counters(const Counters& a, const Counters& b) {
+  std::uint64_t differing = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    differing += a[k] != b[k] ? 1U : 0U;
+  }
+  return differing;
+}
+
+double rate(std::uint64_t count, double seconds) {
+  return seconds > 0 ? static_cast<double>(count) / seconds : 0;
+}
+
+void print_table(const std::vector<Entry>& entries, const Entry& reference) {
+  fmt::print("{:<12}{:>12}{:>14}{:>13}{:>14}{:>14}{:>14}\n", "device", "rays", "cycles", "rays/cycle",
+             "cycles/s", "pixels off", "off > 2");
+  for (const Entry& e : entries) {
+    const double rays_per_cycle = rate(e.run.rays(), static_cast<double>(e.run.cycles()));
+    fmt::print("{:<12}{:>12}{:>14}{:>13.4f}{:>14.0f}{:>14}{:>14}\n", e.name, e.run.rays(), e.run.cycles(),
+               rays_per_cycle, rate(e.run.cycles(), e.run.rendering.stats.trace_seconds),
+               pixels_off(e.picture, reference.picture, 0), pixels_off(e.picture, reference.picture, 2));
+  }
+  fmt::print("\n{:<18}", "counter");
+  for (const Entry& e : entries) {
+    fmt::print("{:>16}", e.name);
+  }
+  fmt::print("\n");
+  for (std::size_t k = 0; k < kCounterNames.size(); ++k) {
+    fmt::print("{:<18}", kCounterNames[k]);
+    for (const Entry& e : entries) {
+      fmt::print("{:>16}", e.run.counters[k]);
+    }
+    fmt::print("\n");
+  }
+}
+
+}  // namespace
+
+int run(const CompareCommand& command) {
+  const Settings& settings = command.settings;
+  std::error_code error;
+  std::filesystem::create_directories(command.folder, error);
+  if (error) {
+    throw std::runtime_error(
+        fmt::format("{}: cannot be made a folder ({})", command.folder.string(), error.message()));
+  }
+  std::vector<std::string> names{"reference", "model"};
+  if (kWithRtl) {
+    names.emplace_back("rtl");
+  }
+  std::vector<std::unique_ptr<OutputFile>> pictures;
+  for (const std::string& name : names) {
+    pictures.push_back(std::make_unique<OutputFile>(command.folder / (name + ".png")));
+  }
+  std::optional<OutputFile> json;
+  if (!settings.json.empty()) {
+    json.emplace(settings.json);
+  }
+  const Prepared prepared = prepare(settings);
+  std::vector<Entry> entries;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    entries.push_back(trace(command, prepared, names[k]));
+    write_png(entries[k].run.rendering.image, *pictures[k]);
+    pictures[k]->commit();
+  }
+  const Entry& reference = entries[0];
+  const Entry& model = entries[1];
+  const Entry& last = entries.back();
+  print_table(entries, reference);
+
+  nlohmann::ordered_json figures;
+  const auto figure = [&](const char* key, const auto& value, const char* unit) {
+    figures[key] = {{"value", value}, {"unit", unit}, {"command", command.command_line}};
+  };
+  bool equal = true;
+  if (kWithRtl) {
+    const std::uint64_t bits = differing_bits(model.hits, last.hits);
+    const std::uint64_t counters = differing_counters(model.run.counters, last.run.counters);
+    fmt::print("\nmodel against rtl: {} hits, {} differing bits, {} differing counters\n", last.hits.size(),
+               bits, counters);
+    figure("render.differing_bits", bits, "bits");
+    figure("render.differing_counters", counters, "counters");
+    equal = bits == 0 && counters == 0 && !last.hits.empty();
+  } else {
+    fmt::print("\nmodel against rtl: not compared, this build has no Verilator model\n");
+  }
+  figure("render.hits_compared", kWithRtl ? last.hits.size() : 0, "hits");
+  figure("render.pixels_off_reference", pixels_off(last.picture, reference.picture, 2), "pixels");
+  figure("render.pixels_differing_reference", pixels_off(last.picture, reference.picture, 0), "pixels");
+  figure("render.pixels", last.picture.size() / 3, "pixels");
+  figure(kWithRtl ? "sim.cycles_per_second" : "model.cycles_per_second",
+         rate(last.run.cycles(), last.run.rendering.stats.trace_seconds), "cycles/s");
+  if (json) {
+    json->write(figures.dump(2) + "\n");
+    json->commit();
+  }
+  return equal ? 0 : 1;
+}
+
+}  // namespace raplas

@@ -1,0 +1,138 @@
+// The `raplas` command: reads the command line and runs a subcommand.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <optional>
+#include <string>
+
+#include "commands.hpp"
+
+namespace raplas {
+namespace {
+
+constexpr int kExitFailure = 1;
+constexpr int kExitUsage = 2;
+
+/// Options of both subcommands as given; what is absent comes from the profile.
+struct CommandLine {
+  std::string scene;
+  std::string profile = "raplas";
+  int width = 512;
+  int height = 512;
+  std::optional<int> pencil;
+  int shadow = 4;
+  std::optional<std::string> structure;
+  int leaf = 4;
+  std::string memories = "simulation";
+  std::string json;
+  bool quiet = false;
+};
+
+void add_options(CLI::App& app, CommandLine& line) {
+  constexpr int kMaxSide = 16384;
+  app.add_option("scene", line.scene, "scene (.json) or mesh (.obj .ply .stl .gltf .glb .bpt)")->required();
+  app.add_option("--profile", line.profile,
+                 "paper: 4x4 pencils, no guard bits, flat list; raplas: 16x16, guarded, tree")
+      ->check(CLI::IsMember({"paper", "raplas"}))
+      ->capture_default_str();
+  app.add_option("--width", line.width, "pixels")->check(CLI::Range(1, kMaxSide))->capture_default_str();
+  app.add_option("--height", line.height, "pixels")->check(CLI::Range(1, kMaxSide))->capture_default_str();
+  app.add_option("--pencil", line.pencil, "rays in a row of a camera pencil")->check(CLI::Range(1, kMaxRows));
+  app.add_option("--shadow", line.shadow, "rays in a row of a shadow pencil, 0: no shadows")
+      ->check(CLI::Range(0, kMaxRows))
+      ->capture_default_str();
+  app.add_option("--structure", line.structure, "of the bounding spheres")
+      ->check(CLI::IsMember({"flat", "tree"}));
+  app.add_option("--leaf", line.leaf, "most triangles of a sphere without children")
+      ->check(CLI::Range(1, (1 << kCountBits) - 1))
+      ->capture_default_str();
+  app.add_option("--memories", line.memories, "chip: 4096 triangles and 4096 spheres; simulation: 2^20 each")
+      ->check(CLI::IsMember({"chip", "simulation"}))
+      ->capture_default_str();
+  app.add_option("--json", line.json, "file for figures");
+  app.add_flag("--quiet", line.quiet, "no progress, no summary");
+}
+
+Settings resolve(const CommandLine& line) {
+  constexpr std::size_t kChipDepth = 4096;
+  constexpr int kPaperPencil = 4;
+  const bool paper = line.profile == "paper";
+  Settings settings;
+  settings.scene = line.scene;
+  settings.profile = line.profile;
+  settings.render = {line.width, line.height, line.pencil.value_or(paper ? kPaperPencil : kMaxRows),
+                     line.shadow};
+  settings.flat = line.structure.value_or(paper ? "flat" : "tree") == "flat";
+  settings.tree.leaf_size = line.leaf;
+  settings.device.guard_bits = !paper;
+  if (line.memories == "chip") {
+    settings.device.sphere_depth = kChipDepth;
+    settings.device.triangle_depth = kChipDepth;
+  }
+  settings.json = line.json;
+  settings.quiet = line.quiet;
+  return settings;
+}
+
+void print_error(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  fmt::print(stderr, "raplas: {}\n", text);
+}
+
+int parse_and_run(int argc, char** argv) {
+  CLI::App app{"Ray tracing with the RAPLAS accelerator", "raplas"};
+  app.require_subcommand(1);
+  CommandLine line;
+
+  CLI::App* render = app.add_subcommand("render", "Render a scene into a PNG file");
+  add_options(*render, line);
+  std::string device = "model";
+  std::string picture = "out.png";
+  std::string hits;
+  render->add_option("--device", device, "what traces the rays")
+      ->check(CLI::IsMember({"reference", "model", "rtl"}))
+      ->capture_default_str();
+  render->add_option("-o,--output", picture, "PNG file")->capture_default_str();
+  render->add_option("--hits", hits, "file for the raw hits of all rays");
+
+  CLI::App* compare =
+      app.add_subcommand("compare", "Render with every device and compare pictures, hits and counts");
+  add_options(*compare, line);
+  std::string folder = "compare";
+  compare->add_option("-o,--output", folder, "folder for the pictures")->capture_default_str();
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& asked_for_help) {
+    return app.exit(asked_for_help);
+  } catch (const CLI::ParseError& error) {
+    print_error(error.what());
+    return kExitUsage;
+  }
+  if (render->parsed()) {
+    return run(RenderCommand{resolve(line), device, picture, hits});
+  }
+  std::string command_line = "raplas";
+  for (int k = 1; k < argc; ++k) {
+    command_line += std::string(" ") + argv[k];
+  }
+  return run(CompareCommand{resolve(line), folder, command_line});
+}
+
+}  // namespace
+}  // namespace raplas
+
+int main(int argc, char** argv) {
+  try {
+    return raplas::parse_and_run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    raplas::print_error("out of memory");
+  } catch (const std::exception& error) {
+    raplas::print_error(error.what());
+  }
+  return raplas::kExitFailure;
+}

@@ -1,0 +1,285 @@
+// The whole unit against its clocked model, every edge between the units on every clock, and against the
+// value-exact walk at the end of each pencil. Random scenes and pencils. GUARD_BITS is the unit's generic.
+#include <cmath>
+#include <random>
+
+#include "raplas/intersection_unit.hpp"
+#include "support/scoreboard.hpp"
+
+namespace raplas {
+namespace {
+
+using F = std::conditional_t<GUARD_BITS == 0, Fp24Paper, Fp24>;
+const std::uint32_t kPencils = Dut::simulator() == "ghdl" ? 3 : 40;
+
+/// Scenes of small triangles in the unit cube, and pencils that look into it.
+class Scenes {
+ public:
+  explicit Scenes(std::uint32_t seed) : random_(seed) {}
+
+  /// A tree of `depth` levels of inner nodes, up to 4 children each, over random triangles; depth 0: a flat
+  /// list.
+  SceneMemory<F> scene(int depth, std::uint32_t root_nodes) {
+    SceneMemory<F> memory;
+    memory.spheres.resize(root_nodes);
+    std::size_t begin = 0;
+    for (int level = 0; level <= depth; ++level) {
+      const std::size_t end = memory.spheres.size();
+      for (std::size_t k = begin; k < end; ++k) {
+        const double radius = level == depth ? 0.15 : 0.5;
+        SphereWord<F> node{point(), F::from_double(radius * real(0.3, 1)),
+                           level == depth || random_() % 5 == 0, 0, 0};
+        node.count = 1 + static_cast<std::uint32_t>(random_() % 4);
+        if (node.leaf) {
+          node.first = static_cast<std::uint32_t>(memory.triangles.size());
+          for (std::uint32_t t = 0; t < node.count; ++t) {
+            memory.triangles.push_back(triangle(node.centre));
+          }
+        } else {
+          node.first = static_cast<std::uint32_t>(memory.spheres.size());
+          memory.spheres.resize(memory.spheres.size() + node.count);
+        }
+        memory.spheres[k] = node;
+      }
+      begin = end;
+    }
+    memory.scene = {static_cast<std::uint32_t>(memory.spheres.size()), root_nodes, 0};
+    return memory;
+  }
+
+  PencilMemory<F> pencil(std::uint32_t rows, std::uint32_t columns) {
+    PencilMemory<F> memory;
+    const double ox = real(-0.2, 0.2);
+    const double oy = real(-0.2, 0.2);
+    const double oz = -2;
+    const double width = real(0.02, 0.8);
+    memory.pencil = {rows, columns, {F::from_double(ox), F::from_double(oy), F::from_double(oz)}};
+    const auto at = [width](std::uint32_t k, std::uint32_t count) {
+      return width * ((k + 0.5) / count - 0.5);
+    };
+    for (std::uint32_t r = 0; r < rows; ++r) {  // the plane y = at(r) * z through O
+      const double length = std::hypot(1, at(r, rows));
+      memory.rows[r] = {{F(), F::from_double(1 / length), F::from_double(-at(r, rows) / length)},
+                        F::from_double((-oy + at(r, rows) * oz) / length)};
+      for (std::uint32_t c = 0; c < columns; ++c) {
+        const double x = at(c, columns);
+        const double y = at(r, rows);
+        const double norm = std::sqrt(x * x + y * y + 1);
+        memory.rays[r * kMaxColumns + c] = {F::from_double(x / norm), F::from_double(y / norm),
+                                            F::from_double(1 / norm)};
+      }
+    }
+    for (std::uint32_t c = 0; c < columns; ++c) {
+      const double length = std::hypot(1, at(c, columns));
+      memory.columns[c] = {{F::from_double(1 / length), F(), F::from_double(-at(c, columns) / length)},
+                           F::from_double((-ox + at(c, columns) * oz) / length)};
+    }
+    return memory;
+  }
+
+  std::uint32_t below(std::uint32_t limit) { return static_cast<std::uint32_t>(random_() % limit); }
+
+ private:
+  double real(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+  Vec3<F> point() { return vector(-0.5, 0.5); }
+  Vec3<F> vector(double low, double high) {
+    return {F::from_double(real(low, high)), F::from_double(real(low, high)),
+            F::from_double(real(low, high))};
+  }
+  TriangleWord<F> triangle(const Vec3<F>& centre) {
+    TriangleWord<F> t{centre - vector(-0.1, 0.1), vector(-0.2, 0.2), vector(-0.2, 0.2), {}};
+    t.n = cross(t.e1, t.e2);
+    return t;
+  }
+
+  std::mt19937 random_;
+};
+
+class IntersectionUnitBench : public testing::Test {
+ protected:
+  void SetUp() override {
+    dut().set(dut().port("write_i"), 0);
+    dut().set(dut().port("start_i"), 0);
+    reset_dut();
+  }
+
+  template <std::size_t kWords>
+  void write(Target target, std::size_t address, const std::array<std::uint32_t, kWords>& word) {
+    std::array<std::uint32_t, TriangleLayout::kBits / 32> data{};
+    std::copy(word.begin(), word.end(), data.begin());
+    dut().set(dut().port("write_i"), 1);
+    dut().set(dut().port("target_i"), static_cast<std::uint64_t>(target));
+    dut().set(dut().port("address_i"), address);
+    dut().set(dut().port("data_i"), data);
+    dut().clock();
+    dut().set(dut().port("write_i"), 0);
+  }
+
+  void load(const SceneMemory<F>& scene) {
+    for (std::size_t k = 0; k < scene.spheres.size(); ++k) {
+      write(Target::sphere, k, scene.spheres[k].pack());
+    }
+    for (std::size_t k = 0; k < scene.triangles.size(); ++k) {
+      write(Target::triangle, k, scene.triangles[k].pack());
+    }
+    write(Target::scene, 0, scene.scene.pack());
+    model_.load(&scene);
+  }
+
+  void load(const PencilMemory<F>& pencil, std::size_t bank) {
+    for (std::size_t r = 0; r < pencil.pencil.rows; ++r) {
+      write(Target::plane, bank * 32 + r, pencil.rows[r].pack());
+      for (std::size_t c = 0; c < pencil.pencil.columns; ++c) {
+        write(Target::ray, bank * kMaxRays + r * kMaxColumns + c, pack_ray(pencil.rays[r * kMaxColumns + c]));
+      }
+    }
+    for (std::size_t c = 0; c < pencil.pencil.columns; ++c) {
+      write(Target::plane, bank * 32 + 16 + c, pencil.columns[c].pack());
+    }
+    write(Target::pencil, bank, pencil.pencil.pack());
+    model_.pencil(bank) = pencil;
+  }
+
+  /// Starts the pencil of a bank and compares every edge on every clock until the unit is idle.
+  void run(std::size_t bank) {
+    dut().set(dut().port("bank_i"), bank);
+    for (bool start = true; start || model_.busy(); start = false) {
+      dut().set(dut().port("start_i"), start ? 1 : 0);
+      dut().settle();
+      ASSERT_NO_FATAL_FAILURE(compare(model_.edges()));
+      dut().clock();
+      model_.clock(start, bank);
+    }
+    dut().set(dut().port("start_i"), 0);
+    dut().settle();
+    ASSERT_NO_FATAL_FAILURE(expect("busy_o", 0));
+  }
+
+  /// Counters and results against the clocked model and the value-exact walk.
+  void check(const SceneMemory<F>& scene, const PencilMemory<F>& pencil, std::size_t bank) {
+    ResultMemory<F> results;
+    PencilCounters exact{};
+    trace_pencil(scene, pencil, results, exact);
+    PencilCounters counters{};
+    dut().get(dut().port("counters_o"), counters);
+    for (std::size_t k = 0; k < counters.size(); ++k) {
+      ASSERT_EQ(counters[k], model_.counters()[k]) << kCounterNames[k];
+      const auto counter = static_cast<Counter>(k);
+      if (counter != Counter::cycles && counter != Counter::stall_cycles) {
+        ASSERT_EQ(counters[k], exact[k]) << kCounterNames[k];
+      }
+      total_[k] += counters[k];
+    }
+    for (std::size_t r = 0; r < pencil.pencil.rows; ++r) {
+      for (std::size_t c = 0; c < pencil.pencil.columns; ++c) {
+        const std::size_t ray = r * kMaxColumns + c;
+        dut().set(dut().port("result_ray_i"), bank * kMaxRays + ray);
+        for (int k = 0; k < kMemoryStages; ++k) {
+          dut().clock();
+        }
+        PackedWord<ResultLayout::kBits> word{};
+        dut().get(dut().port("result_o"), word);
+        const auto seen = ResultWord<F>::unpack(word);
+        ASSERT_EQ(seen.hit, results[ray].hit) << "ray " << ray;
+        if (seen.hit) {
+          ASSERT_EQ(seen, results[ray]) << "ray " << ray;
+        }
+        ASSERT_EQ(model_.results(bank)[ray], results[ray]) << "ray " << ray;
+        count_checked();
+      }
+    }
+  }
+
+  IntersectionUnit<F> model_;
+  std::array<std::uint64_t, kNumCounters> total_{};
+
+ private:
+  static void expect(const char* name, std::uint64_t value) { expect_port(dut().port(name), value, name); }
+
+  void compare(const UnitEdges<F>& e) {
+    ASSERT_NO_FATAL_FAILURE(expect("busy_o", model_.busy() ? 1 : 0));
+    ASSERT_NO_FATAL_FAILURE(expect("request_o", e.request.valid ? 1 : 0));
+    ASSERT_NO_FATAL_FAILURE(expect("stack_level_o", static_cast<std::uint64_t>(e.stack_level)));
+    if (e.request.valid) {
+      ASSERT_NO_FATAL_FAILURE(expect("sphere_o", e.request.address));
+      ASSERT_NO_FATAL_FAILURE(expect("set_o", static_cast<std::uint64_t>(e.request.set)));
+    }
+    ASSERT_NO_FATAL_FAILURE(expect("decided_o", e.decision.decided ? 1 : 0));
+    ASSERT_NO_FATAL_FAILURE(expect("leaf_o", e.decision.leaf ? 1 : 0));
+    ASSERT_NO_FATAL_FAILURE(expect("push_o", e.decision.push ? 1 : 0));
+    if (e.decision.decided) {
+      ASSERT_NO_FATAL_FAILURE(expect("row_mask_o", e.decision.row_mask));
+      ASSERT_NO_FATAL_FAILURE(expect("column_mask_o", e.decision.column_mask));
+    }
+    ASSERT_NO_FATAL_FAILURE(expect("issue_o", e.issue ? 1 : 0));
+    ASSERT_NO_FATAL_FAILURE(expect("stall_o", e.stall ? 1 : 0));
+    if (e.pair_waits) {
+      ASSERT_NO_FATAL_FAILURE(expect("ray_o", e.pair.ray));
+      ASSERT_NO_FATAL_FAILURE(expect("triangle_o", e.pair.triangle));
+    }
+    ASSERT_NO_FATAL_FAILURE(expect("pair_done_o", e.pair_done ? 1 : 0));
+    ASSERT_NO_FATAL_FAILURE(expect("hit_o", e.hit ? 1 : 0));
+    ASSERT_NO_FATAL_FAILURE(expect("stored_o", e.stored ? 1 : 0));
+    if (e.pair_done) {
+      ASSERT_NO_FATAL_FAILURE(expect_port(dut().port("stored_result_o"), e.result.pack(), "stored_result_o"));
+    }
+  }
+};
+
+TEST_F(IntersectionUnitBench, TracesAPencilOfEverySizeThroughATree) {
+  Scenes scenes(121);
+  const SceneMemory<F> scene = scenes.scene(3, 3);
+  load(scene);
+  for (std::uint32_t k = 0; k < kPencils; ++k) {
+    const PencilMemory<F> pencil =
+        scenes.pencil(k == 0 ? 16 : 1 + scenes.below(16), k == 0 ? 16 : 1 + scenes.below(16));
+    load(pencil, k % 2);
+    ASSERT_NO_FATAL_FAILURE(run(k % 2));
+    ASSERT_NO_FATAL_FAILURE(check(scene, pencil, k % 2));
+  }
+  EXPECT_GT(total_[static_cast<std::size_t>(Counter::hits)], kPencils);
+  EXPECT_GT(total_[static_cast<std::size_t>(Counter::spheres_skipped)], 0U);
+  EXPECT_GT(total_[static_cast<std::size_t>(Counter::stall_cycles)], 0U);
+}
+
+TEST_F(IntersectionUnitBench, TracesTheFlatListOfThePaper) {
+  Scenes scenes(122);
+  for (std::uint32_t k = 0; k < kPencils; ++k) {
+    const SceneMemory<F> scene = scenes.scene(0, 20 + scenes.below(60));
+    load(scene);
+    const PencilMemory<F> pencil = scenes.pencil(4, 4);
+    load(pencil, 0);
+    ASSERT_NO_FATAL_FAILURE(run(0));
+    ASSERT_NO_FATAL_FAILURE(check(scene, pencil, 0));
+  }
+  EXPECT_EQ(total_[static_cast<std::size_t>(Counter::spheres_skipped)], 0U);
+}
+
+TEST_F(IntersectionUnitBench, LoadsTheOtherBankWhileAPencilRuns) {
+  Scenes scenes(123);
+  const SceneMemory<F> scene = scenes.scene(2, 4);
+  load(scene);
+  const std::array<PencilMemory<F>, 2> pencils{scenes.pencil(8, 8), scenes.pencil(5, 16)};
+  load(pencils[0], 0);
+  dut().set(dut().port("bank_i"), 0);
+  dut().set(dut().port("start_i"), 1);
+  dut().clock();
+  dut().set(dut().port("start_i"), 0);
+  model_.clock(true, 0);
+  const std::uint64_t before = dut().cycles();
+  load(pencils[1], 1);
+  for (std::uint64_t k = 0; k < dut().cycles() - before; ++k) {
+    model_.clock(false, 0);
+  }
+  while (dut().get(dut().port("busy_o")) != 0) {
+    dut().clock();
+    model_.clock(false, 0);
+  }
+  EXPECT_FALSE(model_.busy());
+  ASSERT_NO_FATAL_FAILURE(check(scene, pencils[0], 0));
+  ASSERT_NO_FATAL_FAILURE(run(1));
+  ASSERT_NO_FATAL_FAILURE(check(scene, pencils[1], 1));
+}
+
+}  // namespace
+}  // namespace raplas

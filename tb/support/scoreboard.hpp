@@ -1,0 +1,66 @@
+// Checks a unit of fixed latency on every clock: what goes in now must come out kLatency clocks later.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <deque>
+#include <optional>
+#include <utility>
+
+#include "bridge/dut.hpp"
+
+namespace raplas {
+
+/// Expected results on their way through a pipeline.
+template <typename T>
+class Scoreboard {
+ public:
+  explicit Scoreboard(int latency) : latency_(static_cast<std::size_t>(latency)) {}
+
+  /// Clocks the unit with inputs whose result is `expected`; gives the result due at the outputs now.
+  std::optional<T> clock(T expected) {
+    line_.push_back(std::move(expected));
+    dut().clock();
+    if (line_.size() < latency_) {
+      return std::nullopt;
+    }
+    T due = std::move(line_.front());
+    line_.pop_front();
+    return due;
+  }
+
+ private:
+  std::size_t latency_;
+  std::deque<T> line_;
+};
+
+/// A port of up to 64 bits must be known and hold `expected`; counts the check.
+inline void expect_port(PortId port, std::uint64_t expected, const char* name) {
+  ASSERT_FALSE(dut().has_unknown(port)) << name << " is unknown in clock " << dut().cycles();
+  ASSERT_EQ(dut().get(port), expected) << name << std::hex << " in clock 0x" << dut().cycles()
+                                       << ": expected 0x" << expected << ", seen 0x" << dut().get(port);
+  count_checked();
+}
+
+/// A wide port must be known and hold `expected`; counts the check.
+template <std::size_t kWords>
+void expect_port(PortId port, const std::array<std::uint32_t, kWords>& expected, const char* name) {
+  ASSERT_FALSE(dut().has_unknown(port)) << name << " is unknown in clock " << dut().cycles();
+  std::array<std::uint32_t, kWords> seen{};
+  dut().get(port, seen);
+  ASSERT_EQ(seen, expected) << name << " in clock " << dut().cycles();
+  count_checked();
+}
+
+/// Holds rst_i for a few clocks.
+inline void reset_dut() {
+  const PortId reset = dut().port("rst_i");
+  dut().set(reset, 1);
+  for (int k = 0; k < 4; ++k) {
+    dut().clock();
+  }
+  dut().set(reset, 0);
+}
+
+}  // namespace raplas

@@ -1,0 +1,88 @@
+// plane_sphere_tester against the six operations done by MPFR. GUARD_BITS is the unit's generic.
+#include "operands.hpp"
+#include "oracle.hpp"
+#include "raplas/plane_sphere.hpp"
+#include "support/scoreboard.hpp"
+
+namespace raplas {
+namespace {
+
+constexpr int kRandomCases = 30'000;
+const PortStage kStage{"meets_o", kTesterStages};
+
+std::uint32_t sum(std::uint32_t a, std::uint32_t b) {
+  return GUARD_BITS == 0 ? oracle::add_paper(a, b) : oracle::add(a, b);
+}
+
+struct Case {
+  std::array<std::uint32_t, 4> plane;  // nx ny nz p
+  std::array<std::uint32_t, 4> ball;   // cx cy cz r
+
+  [[nodiscard]] std::uint32_t distance() const {
+    const std::uint32_t xy = sum(oracle::multiply(plane[0], ball[0]), oracle::multiply(plane[1], ball[1]));
+    const std::uint32_t zp = sum(oracle::multiply(plane[2], ball[2]), plane[3]);
+    return sum(xy, zp) & 0x7fffffU;
+  }
+  [[nodiscard]] bool meets() const {
+    return mpfr_cmpabs(oracle::Real(distance()).get(), oracle::Real(ball[3]).get()) <= 0;
+  }
+};
+
+PackedWord<96> pack(const std::array<std::uint32_t, 4>& words) {
+  PackedWord<96> packed{};
+  for (int k = 0; k < 4; ++k) {
+    insert(packed, {72 - 24 * k, 24}, words[static_cast<std::size_t>(k)]);
+  }
+  return packed;
+}
+
+class PlaneSphereTester : public testing::Test {
+ protected:
+  void check(const Case& c) {
+    dut().set(plane_, pack(c.plane));
+    dut().set(ball_, pack(c.ball));
+    if (const auto due = board_.clock(c.meets())) {
+      expect_port(meets_, *due ? 1 : 0, "meets_o");
+    }
+  }
+
+  PortId plane_ = dut().port("plane_i");
+  PortId ball_ = dut().port("ball_i");
+  PortId meets_ = dut().port("meets_o");
+  Scoreboard<bool> board_{kTesterStages};
+};
+
+TEST_F(PlaneSphereTester, DecidesRandomCases) {
+  OperandPairs pairs(21);
+  for (int k = 0; k < kRandomCases; ++k) {
+    Case c{};
+    for (std::size_t i = 0; i < 4; ++i) {
+      const int spread = k % 3 == 0 ? 64 : 4;
+      c.plane[i] = pairs.word(63 + pairs.between(-spread, spread / 4));
+      c.ball[i] = pairs.word(63 + pairs.between(-spread, spread / 4));
+    }
+    c.ball[3] &= 0x7fffffU;
+    ASSERT_NO_FATAL_FAILURE(check(c));
+  }
+}
+
+TEST_F(PlaneSphereTester, IsExactAtTheRim) {
+  OperandPairs pairs(22);
+  for (int k = 0; k < kRandomCases; ++k) {
+    Case c{};
+    for (std::size_t i = 0; i < 4; ++i) {
+      c.plane[i] = pairs.word(63 + pairs.between(-4, 0));
+      c.ball[i] = pairs.word(63 + pairs.between(-4, 0));
+    }
+    const std::uint32_t d = c.distance();
+    if (d < 0x010002U || d > 0x7ffffdU) {
+      continue;
+    }
+    c.ball[3] =
+        d + static_cast<std::uint32_t>(pairs.between(-1, 1));  // one ulp inside, on and outside the rim
+    ASSERT_NO_FATAL_FAILURE(check(c));
+  }
+}
+
+}  // namespace
+}  // namespace raplas

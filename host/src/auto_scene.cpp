@@ -4,6 +4,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <limits>
 #include <stdexcept>
 
 #include "raplas/scene_file.hpp"
@@ -12,8 +13,8 @@ namespace raplas {
 namespace {
 
 struct Box {
-  glm::dvec3 low{INFINITY};
-  glm::dvec3 high{-INFINITY};
+  glm::dvec3 low{std::numeric_limits<double>::infinity()};
+  glm::dvec3 high{-std::numeric_limits<double>::infinity()};
 };
 
 Box bounds(const Mesh& mesh) {

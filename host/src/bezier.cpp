@@ -9,6 +9,7 @@
 #include <fstream>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -44,8 +45,8 @@ std::array<double, 4> bernstein(double t) {
 }
 
 double size_of(const std::vector<BezierPatch>& patches) {
-  glm::dvec3 low(INFINITY);
-  glm::dvec3 high(-INFINITY);
+  glm::dvec3 low(std::numeric_limits<double>::infinity());
+  glm::dvec3 high(-std::numeric_limits<double>::infinity());
   for (const BezierPatch& patch : patches) {
     for (const glm::dvec3& p : patch) {
       low = glm::min(low, p);

@@ -105,6 +105,7 @@ int run(const CompareCommand& command) {
     names.emplace_back("rtl");
   }
   std::vector<std::unique_ptr<OutputFile>> pictures;
+  pictures.reserve(names.size());
   for (const std::string& name : names) {
     pictures.push_back(std::make_unique<OutputFile>(command.folder / (name + ".png")));
   }

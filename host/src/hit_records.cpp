@@ -30,9 +30,12 @@ HitRecord record_of(const Hit& hit) {
 }
 
 std::uint64_t differing_bits(const HitRecord& a, const HitRecord& b) {
-  return static_cast<std::uint64_t>(std::popcount(a.hit_and_triangle ^ b.hit_and_triangle) +
-                                    std::popcount(a.t ^ b.t) + std::popcount(a.d ^ b.d) +
-                                    std::popcount(a.u ^ b.u) + std::popcount(a.v ^ b.v));
+  std::uint64_t bits = 0;
+  for (const std::uint32_t difference :
+       {a.hit_and_triangle ^ b.hit_and_triangle, a.t ^ b.t, a.d ^ b.d, a.u ^ b.u, a.v ^ b.v}) {
+    bits += static_cast<std::uint32_t>(std::popcount(difference));
+  }
+  return bits;
 }
 
 std::string dump(std::span<const Hit> hits) {

@@ -84,7 +84,8 @@ class Renderer {
     const std::vector<Hit> hits = trace(pencil, result_.stats.camera_rays);
     for (int r = 0; r < rows; ++r) {
       for (int c = 0; c < columns; ++c) {
-        const auto ray = static_cast<std::size_t>(r * columns + c);
+        const auto ray =
+            static_cast<std::size_t>(r) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(c);
         const auto pixel = static_cast<std::size_t>(y0 + r) * static_cast<std::size_t>(options_.width) +
                            static_cast<std::size_t>(x0 + c);
         result_.image.pixels[pixel] = shade(hits[ray], pencil.directions[ray], x0 + c, y0 + r);
@@ -129,7 +130,8 @@ class Renderer {
     for (int r = 0; r < size; ++r) {
       for (int c = 0; c < size; ++c) {
         const glm::dvec3 to = grid.first + double(r) * grid.row_step + double(c) * grid.column_step - origin;
-        const auto ray = static_cast<std::size_t>(r * size + c);
+        const auto ray =
+            static_cast<std::size_t>(r) * static_cast<std::size_t>(size) + static_cast<std::size_t>(c);
         const bool occluded =
             !hits.empty() && hits[ray].hit && hits[ray].t() < glm::length(to) * kBeforeLight;
         sum += occluded ? 0 : form_factor(point, to, light_normal_, light_area_ / (size * size));

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 
@@ -133,8 +134,8 @@ class Builder {
   /// Cuts a range at its median centroid along the longest axis; all leaves but the last of a range stay
   /// full.
   std::size_t halve(Range range) {
-    glm::dvec3 low(INFINITY);
-    glm::dvec3 high(-INFINITY);
+    glm::dvec3 low(std::numeric_limits<double>::infinity());
+    glm::dvec3 high(-std::numeric_limits<double>::infinity());
     for (std::size_t k = range.begin; k < range.end; ++k) {
       low = glm::min(low, centroids_[order_[k]]);
       high = glm::max(high, centroids_[order_[k]]);

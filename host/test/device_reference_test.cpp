@@ -50,6 +50,7 @@ TEST(ReferenceDevice, TreeFindsWhatTestingEveryTriangleFinds) {
   std::uniform_real_distribution<double> uniform(-1, 1);
   const auto vector = [&] { return glm::dvec3(uniform(random), uniform(random), uniform(random)); };
   std::vector<Triangle> triangles;
+  triangles.reserve(1500);
   for (int k = 0; k < 1500; ++k) {
     triangles.push_back({vector() * 0.5, vector() * 0.1, vector() * 0.1});
   }

@@ -143,6 +143,7 @@ TEST(CheckTree, FindsATreeTooDeepForTheStack) {
   DeviceScene scene;
   scene.triangles = triangles;
   scene.root_count = 2;
+  scene.nodes.reserve(2 * triangles.size());
   for (std::uint32_t k = 0; k < triangles.size() - 1; ++k) {
     const bool last = k + 2 == triangles.size();
     scene.nodes.push_back({{0, 0, 0}, 4, true, k, 1});

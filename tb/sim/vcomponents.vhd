@@ -3,7 +3,7 @@
 -- ----------------------------------------------------------------------------
 -- Analysed into library unisim for GHDL only: ISE brings its own package with
 -- the same components. Ports and generics have the vendor's names and types.
--- models: tb/sim/dsp48.vhd, tb/sim/srl16e.vhd (GHDL); Yosys' cells_sim.v (Verilator)
+-- models: tb/sim/dsp48.vhd (GHDL); Yosys' cells_sim.v (Verilator)
 -- ============================================================================
 library ieee;
 use ieee.std_logic_1164.all;
@@ -56,22 +56,5 @@ package vcomponents is
       SUBTRACT   : in  std_ulogic
     );
   end component DSP48;
-
-  -- shift register of 1 to 16 bits in one LUT; Q is the bit A3..A0 + 1 clocks old
-  component SRL16E is
-    generic (
-      INIT : bit_vector := X"0000"
-    );
-    port (
-      Q   : out std_ulogic;
-      A0  : in  std_ulogic;
-      A1  : in  std_ulogic;
-      A2  : in  std_ulogic;
-      A3  : in  std_ulogic;
-      CE  : in  std_ulogic;
-      CLK : in  std_ulogic;
-      D   : in  std_ulogic
-    );
-  end component SRL16E;
 
 end package vcomponents;

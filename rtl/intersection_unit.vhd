@@ -44,7 +44,7 @@ entity intersection_unit is
     counters_o      : out std_ulogic_vector(NUM_COUNTERS * COUNTER_BITS - 1 downto 0);
                       -- of the last pencil; COUNTER_* from the low end
     -- edges between the units
-    request_o       : out std_ulogic;                                    -- sphere and set to the testers
+    request_o       : out std_ulogic;                               -- sphere and set to the testers
     sphere_o        : out std_ulogic_vector(ID_BITS - 1 downto 0);
     set_o           : out std_ulogic_vector(LINE_BITS - 1 downto 0);
     stack_level_o   : out std_ulogic_vector(7 downto 0);

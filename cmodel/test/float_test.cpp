@@ -119,7 +119,9 @@ TEST(Float, NearestEvenRoundsAsIeee754) {
   using F = Float<Format{8, 23, Guard::exact, Rounding::nearest_even}>;  // binary32's fraction, same bias
   std::mt19937 random(4);
   for (int k = 0; k < kRandomPairs; ++k) {
-    const auto word = [&random] { return static_cast<std::uint32_t> ((random() & 0x807fffffU) | ((100 + random() % 50) << 23)); };
+    const auto word = [&random] {
+      return static_cast<std::uint32_t>((random() & 0x807fffffU) | ((100 + random() % 50) << 23));
+    };
     const std::uint32_t a = word();
     const std::uint32_t b = word();
     const auto x = std::bit_cast<float>(a);

@@ -50,7 +50,8 @@ class RtlDevice final : public IntersectionDevice {
     }
     for (std::size_t r = 0; r < rows; ++r) {
       for (std::size_t c = 0; c < columns; ++c) {
-        write(Target::ray, bank_ * kMaxRays + r * kMaxColumns + c, pack_ray(memory.rays[r * kMaxColumns + c]));
+        write(Target::ray, bank_ * kMaxRays + r * kMaxColumns + c,
+              pack_ray(memory.rays[r * kMaxColumns + c]));
       }
     }
     write(Target::pencil, bank_, memory.pencil.pack());

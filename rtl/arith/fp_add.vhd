@@ -99,8 +99,9 @@ architecture rtl of fp_add is
   end function align;
 
   -- total * 2^exponent brought to 17 bits: zeros are counted and removed together, 16, 8, 4, 2, 1
-  function normalise(sign : std_ulogic; exponent : exponent_t; total : unsigned(SUM_BITS - 1 downto 0))
-    return fp24_t is
+  function normalise(sign     : std_ulogic;
+                     exponent : exponent_t;
+                     total    : unsigned(SUM_BITS - 1 downto 0)) return fp24_t is
     variable shifted_v  : unsigned(SUM_BITS - 1 downto 0);
     variable exponent_v : signed(EXPONENT_BITS + 1 downto 0);
     variable zeros_v    : unsigned(4 downto 0);
@@ -135,7 +136,8 @@ begin
     c(ALIGNED_BITS - 1 downto GUARD_BITS) <= std_ulogic_vector(r.s2.larger);
   end process c_p;
 
-  exponent_ab <= std_ulogic_vector(exponent_of(b_i)) & std_ulogic_vector(to_unsigned(0, EXPONENT_LSB));
+  exponent_ab <= std_ulogic_vector(exponent_of(b_i))
+    & std_ulogic_vector(to_unsigned(0, EXPONENT_LSB));
 
   exponent_i : entity raplas.dsp_addsub
     generic map (AB_REG => 0, C_REG => 0)

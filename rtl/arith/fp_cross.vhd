@@ -19,7 +19,7 @@ entity fp_cross is
     clk_i   : in  std_ulogic;
     a_i     : in  std_ulogic_vector(3 * FP_BITS - 1 downto 0);  -- x y z
     b_i     : in  std_ulogic_vector(3 * FP_BITS - 1 downto 0);  -- x y z
-    cross_o : out std_ulogic_vector(3 * FP_BITS - 1 downto 0)   -- x y z, MUL_STAGES + ADD_STAGES later
+    cross_o : out std_ulogic_vector(3 * FP_BITS - 1 downto 0)  -- MUL_STAGES + ADD_STAGES later
   );
 end entity fp_cross;
 

@@ -44,7 +44,7 @@ begin
       p_o   => significand_o
     );
 
-  -- a + b - 63 = a + (b - 64) + 1; b - 64 in two's complement is b with its top bit turned into a sign
+  -- a + b - 63 = a + (b - 64) + 1; b - 64 in two's complement is b with its top bit made a sign
   operands_p : process (a_i, b_i)
     variable a_v      : exponent_t;
     variable b_v      : exponent_t;

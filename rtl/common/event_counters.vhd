@@ -35,8 +35,8 @@ architecture rtl of event_counters is
   signal rin : counters_t;
 begin
 
-  comb_p : process (r, clear_i, spheres_i, rows_i, columns_i, busy_i, sphere_i, first_set_i, issue_i,
-                    first_hit_i, stall_i)
+  comb_p : process (r, clear_i, spheres_i, rows_i, columns_i, busy_i, sphere_i, first_set_i,
+                    issue_i, first_hit_i, stall_i)
     variable v : counters_t;
   begin
     v := r;

@@ -29,7 +29,8 @@ entity fifo is
 end entity fifo;
 
 architecture rtl of fifo is
-  type memory_t is array (natural range 0 to 2 ** DEPTH_LOG2 - 1) of std_ulogic_vector(WIDTH - 1 downto 0);
+  subtype word_t is std_ulogic_vector(WIDTH - 1 downto 0);
+  type memory_t is array (natural range 0 to 2 ** DEPTH_LOG2 - 1) of word_t;
   signal memory     : memory_t;
   signal head       : unsigned(DEPTH_LOG2 - 1 downto 0);
   signal tail       : unsigned(DEPTH_LOG2 - 1 downto 0);

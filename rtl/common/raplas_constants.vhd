@@ -52,7 +52,7 @@ package raplas_constants is
 
   subtype fp24_t is std_ulogic_vector(FP_BITS - 1 downto 0);
 
-  -- a node of the sphere tree; its children are first .. first+count-1: triangles in a leaf, else spheres
+  -- node of the sphere tree; children first .. first+count-1: triangles in a leaf, else spheres
   constant SPHERE_BITS : natural := 124;
   subtype sphere_word_t is std_ulogic_vector(123 downto 0);
   type sphere_t is record

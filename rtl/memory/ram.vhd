@@ -27,7 +27,8 @@ entity ram is
 end entity ram;
 
 architecture rtl of ram is
-  type memory_t is array (natural range 0 to 2 ** ADDRESS_BITS - 1) of std_ulogic_vector(WIDTH - 1 downto 0);
+  subtype word_t is std_ulogic_vector(WIDTH - 1 downto 0);
+  type memory_t is array (natural range 0 to 2 ** ADDRESS_BITS - 1) of word_t;
   signal memory : memory_t;
   signal s1     : std_ulogic_vector(WIDTH - 1 downto 0);
 begin

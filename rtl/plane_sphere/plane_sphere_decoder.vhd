@@ -56,7 +56,8 @@ architecture rtl of plane_sphere_decoder is
 
 begin
 
-  comb_p : process (r, rows_i, columns_i, valid_i, set_i, last_i, leaf_i, row_flags_i, column_flags_i)
+  comb_p : process (r, rows_i, columns_i, valid_i, set_i, last_i, leaf_i, row_flags_i,
+                    column_flags_i)
     constant NO_ROWS    : row_mask_t    := (others => '0');
     constant NO_COLUMNS : column_mask_t := (others => '0');
     variable v      : reg_t;

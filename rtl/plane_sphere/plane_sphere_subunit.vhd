@@ -24,7 +24,7 @@ entity plane_sphere_subunit is
     valid_i        : in  std_ulogic;
     ball_i         : in  std_ulogic_vector(4 * FP_BITS - 1 downto 0);  -- cx cy cz r
     planes_i       : in  std_ulogic_vector((NUM_ROWS + NUM_COLUMNS) * PLANE_BITS - 1 downto 0);
-                                                          -- row planes from the low end, then columns
+                      -- row planes from the low end, then columns
     tag_i          : in  std_ulogic_vector(TAG_BITS - 1 downto 0);
     valid_o        : out std_ulogic;
     row_flags_o    : out std_ulogic_vector(NUM_ROWS - 1 downto 0);

@@ -55,7 +55,8 @@ begin
 
   radius_i : entity raplas.delay
     generic map (WIDTH => FP_BITS, STAGES => DISTANCE_STAGES)
-    port map (clk_i => clk_i, rst_i => '0', data_i => ball_i(FP_BITS - 1 downto 0), data_o => radius);
+    port map (clk_i => clk_i, rst_i => '0', data_i => ball_i(FP_BITS - 1 downto 0),
+              data_o => radius);
 
   xy_i : entity raplas.fp_add
     generic map (GUARD_BITS => GUARD_BITS)

@@ -23,14 +23,14 @@ entity nearest_hit is
     triangle_i : in  std_ulogic_vector(ID_BITS - 1 downto 0);
     best_i     : in  result_word_t;
     nearer_o   : out std_ulogic;                              -- MUL_STAGES later
-    first_o    : out std_ulogic                               -- the ray had no hit yet; with nearer_o
+    first_o    : out std_ulogic   -- the ray had no hit yet; with nearer_o
   );
 end entity nearest_hit;
 
 architecture rtl of nearest_hit is
 
   constant TOP : natural := 2 * FRACTION_BITS + 1;
-  subtype exact_t is signed(EXPONENT_BITS + 2 + TOP downto 0);   -- 9 + 34 bits: exponent, significand
+  subtype exact_t is signed(EXPONENT_BITS + 2 + TOP downto 0);   -- exponent, significand
 
   signal best          : result_t;
   signal this_sig      : std_ulogic_vector(TOP downto 0);

@@ -33,12 +33,12 @@ entity ray_triangle is
     triangle_i    : in  triangle_word_t;
     direction_i   : in  ray_word_t;
     origin_i      : in  std_ulogic_vector(3 * FP_BITS - 1 downto 0);    -- x y z
-    best_ray_o    : out std_ulogic_vector(2 * LINE_BITS - 1 downto 0);  -- @24: its best hit is wanted
+    best_ray_o    : out std_ulogic_vector(2 * LINE_BITS - 1 downto 0);  -- @24: its best hit, please
     best_i        : in  result_word_t;                                  -- @26
     valid_o       : out std_ulogic;                                     -- @29, as all below
     hit_o         : out std_ulogic;                                     -- the triangle is hit
-    write_o       : out std_ulogic;                                     -- and nearer: result_o is stored
-    first_o       : out std_ulogic;                                     -- and the ray had no hit yet
+    write_o       : out std_ulogic;                                -- and nearer: result_o is stored
+    first_o       : out std_ulogic;                                    -- and the ray had no hit yet
     ray_o         : out std_ulogic_vector(2 * LINE_BITS - 1 downto 0);
     result_o      : out result_word_t
   );
@@ -96,7 +96,8 @@ begin
 
   triangle <= unpack_triangle(triangle_i);
   v0       <= triangle.v0x & triangle.v0y & triangle.v0z;
-  edges    <= triangle.e1x & triangle.e1y & triangle.e1z & triangle.e2x & triangle.e2y & triangle.e2z;
+  edges    <= triangle.e1x & triangle.e1y & triangle.e1z
+    & triangle.e2x & triangle.e2y & triangle.e2z;
   vectors  <= direction_i & triangle.nx & triangle.ny & triangle.nz;
 
   -- s4: T = V0 - O
@@ -137,7 +138,8 @@ begin
 
   nt_i : entity raplas.fp_dot3
     generic map (GUARD_BITS => GUARD_BITS)
-    port map (clk_i => clk_i, a_i => vectors_4(VECTOR_BITS - 1 downto 0), b_i => t_s4, dot_o => nt_s15);
+    port map (clk_i => clk_i, a_i => vectors_4(VECTOR_BITS - 1 downto 0), b_i => t_s4,
+              dot_o => nt_s15);
 
   nt_delay : entity raplas.delay
     generic map (WIDTH => FP_BITS, STAGES => DOT_STAGE - DOT_STAGES - T_STAGE)
@@ -145,12 +147,13 @@ begin
 
   e2_i : entity raplas.fp_dot3
     generic map (GUARD_BITS => GUARD_BITS)
-    port map (clk_i => clk_i, a_i => cross_s11, b_i => edges_s11(VECTOR_BITS - 1 downto 0), dot_o => e2_s22);
+    port map (clk_i => clk_i, a_i => cross_s11, b_i => edges_s11(VECTOR_BITS - 1 downto 0),
+              dot_o => e2_s22);
 
   e1_i : entity raplas.fp_dot3
     generic map (GUARD_BITS => GUARD_BITS)
-    port map (clk_i => clk_i, a_i => cross_s11, b_i => edges_s11(2 * VECTOR_BITS - 1 downto VECTOR_BITS),
-              dot_o => e1_s22);
+    port map (clk_i => clk_i, a_i => cross_s11,
+              b_i => edges_s11(2 * VECTOR_BITS - 1 downto VECTOR_BITS), dot_o => e1_s22);
 
   -- s22: sign rule; u' has a minus of its own
   solution_s22 <= flip_sign(nt_s22, sign_of(nd_s22)) & flip_sign(nd_s22, sign_of(nd_s22))
@@ -178,7 +181,8 @@ begin
     u_v := solution_s26(2 * FP_BITS - 1 downto FP_BITS);
     v_v := solution_s26(FP_BITS - 1 downto 0);
     hit_v := valid_s26(0);
-    if sign_of(t_v) = '1' or is_zero(t_v) or is_zero(d_v) or sign_of(u_v) = '1' or sign_of(v_v) = '1'
+    if sign_of(t_v) = '1' or is_zero(t_v) or is_zero(d_v)
+      or sign_of(u_v) = '1' or sign_of(v_v) = '1'
       or magnitude_of(sum_s26) > magnitude_of(d_v) then
       hit_v := '0';
     end if;

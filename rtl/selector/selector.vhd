@@ -22,7 +22,7 @@ entity selector is
     count_i       : in  std_ulogic_vector(COUNT_BITS - 1 downto 0);   -- triangles, 1 .. 127
     row_mask_i    : in  std_ulogic_vector(MAX_ROWS - 1 downto 0);     -- not 0
     column_mask_i : in  std_ulogic_vector(MAX_COLUMNS - 1 downto 0);  -- not 0
-    ready_o       : out std_ulogic;                                   -- takes the leaf in this clock
+    ready_o       : out std_ulogic;                                  -- takes the leaf in this clock
     valid_o       : out std_ulogic;
     ray_o         : out std_ulogic_vector(2 * LINE_BITS - 1 downto 0);
     triangle_o    : out std_ulogic_vector(ID_BITS - 1 downto 0);

@@ -26,7 +26,7 @@ entity traversal is
     start_i       : in  std_ulogic;                                   -- takes the root range
     root_first_i  : in  std_ulogic_vector(ID_BITS - 1 downto 0);
     root_count_i  : in  std_ulogic_vector(ID_BITS downto 0);
-    last_set_i    : in  std_ulogic_vector(LINE_BITS - 1 downto 0);    -- plane sets of the pencil - 1
+    last_set_i    : in  std_ulogic_vector(LINE_BITS - 1 downto 0);   -- plane sets of the pencil - 1
     push_i        : in  std_ulogic;                                   -- an inner node was met
     push_first_i  : in  std_ulogic_vector(ID_BITS - 1 downto 0);
     push_count_i  : in  std_ulogic_vector(COUNT_BITS - 1 downto 0);   -- 1 .. 127
@@ -38,7 +38,7 @@ entity traversal is
     address_o     : out std_ulogic_vector(ID_BITS - 1 downto 0);
     set_o         : out std_ulogic_vector(LINE_BITS - 1 downto 0);
     stack_level_o : out std_ulogic_vector(7 downto 0);                -- stacked ranges
-    idle_o        : out std_ulogic                                    -- nothing left, nothing under test
+    idle_o        : out std_ulogic   -- nothing left, nothing under test
   );
 end entity traversal;
 
@@ -72,6 +72,7 @@ begin
     variable v         : reg_t;
     variable request_v : std_ulogic;
     variable ending_v  : boolean;
+    variable free_v    : boolean;
     variable relaxed_v : boolean;
     variable alone_v   : boolean;
   begin
@@ -102,6 +103,7 @@ begin
     end if;
 
     -- the next range
+    free_v    := ending_v or r.active = '0';
     relaxed_v := r.level < STACK_WATERMARK;
     alone_v   := r.active = '0' and r.under_test = 0;
     write     <= '0';
@@ -112,11 +114,11 @@ begin
       if unsigned(root_count_i) /= 0 then
         v.active := '1';
       end if;
-    elsif (ending_v or r.active = '0') and relaxed_v and push_i = '1' then
+    elsif free_v and relaxed_v and push_i = '1' then
       v.active  := '1';
       v.address := unsigned(push_first_i);
       v.left    := resize(unsigned(push_count_i), ID_BITS + 1);
-    elsif ((ending_v and relaxed_v) or (r.active = '0' and relaxed_v) or alone_v) and r.level /= 0 then
+    elsif ((free_v and relaxed_v) or alone_v) and r.level /= 0 then
       v.active  := '1';
       v.address := unsigned(top(ID_BITS + COUNT_BITS - 1 downto COUNT_BITS));
       v.left    := resize(unsigned(top(COUNT_BITS - 1 downto 0)), ID_BITS + 1);

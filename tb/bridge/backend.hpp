@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace raplas {
@@ -26,6 +27,8 @@ namespace backend {
 void write(std::size_t port, const std::uint32_t* words);
 /// Reads a port; `unknown` (may be null) gets a 1 for each metavalue. Returns whether there is one.
 bool read(std::size_t port, std::uint32_t* words, std::uint32_t* unknown);
+/// Before the first settle() or clock(): records waves, or stops the program if the simulator can't.
+void waves_to(const std::string& path);
 void settle();
 void clock();
 

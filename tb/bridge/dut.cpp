@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -18,8 +19,10 @@ namespace {
 
 constexpr unsigned kWordBits = 32;
 
-std::unique_ptr<TraceWriter> trace;  // NOLINT: one unit a process
-std::uint64_t results_checked = 0;   // NOLINT
+std::unique_ptr<TraceWriter> seen_trace;      // NOLINT: one unit a process
+std::unique_ptr<TraceWriter> expected_trace;  // NOLINT
+std::map<std::size_t, std::string> expected;  // NOLINT: by port, for the line of this clock
+std::uint64_t results_checked = 0;            // NOLINT
 
 std::vector<std::pair<std::string_view, int>>& stages() {
   static std::vector<std::pair<std::string_view, int>> list;
@@ -107,32 +110,53 @@ bool Dut::has_unknown(PortId port) const {
 void Dut::settle() { backend::settle(); }
 
 void Dut::clock() {
+  trace_line();
   backend::clock();
-  if (trace) trace_line();
   ++cycles_;
 }
 
 std::string_view Dut::unit() { return backend::unit(); }
 std::string_view Dut::simulator() { return backend::simulator(); }
 
-void Dut::trace_to(const std::string& path) {
+namespace {
+
+std::unique_ptr<TraceWriter> open_trace(const std::string& path) {
   std::vector<TraceField> fields;
   for (const PortInfo& port : backend::ports()) {
     fields.push_back({std::string(port.name), port.width, stage_of(port)});
   }
-  trace = std::make_unique<TraceWriter>(path, std::string(unit()), std::move(fields));
+  return std::make_unique<TraceWriter>(path, std::string(Dut::unit()), std::move(fields));
+}
+
+}  // namespace
+
+void Dut::trace_to(const std::string& path) { seen_trace = open_trace(path); }
+void Dut::trace_expected_to(const std::string& path) { expected_trace = open_trace(path); }
+void Dut::waves_to(const std::string& path) { backend::waves_to(path); }
+
+void Dut::expect(PortId port, std::span<const std::uint32_t> words) {
+  if (expected_trace) expected[port.index] = trace_hex(words, {}, info(port).width);
 }
 
 void Dut::trace_line() {
-  std::vector<std::string> values;
+  if (!seen_trace && !expected_trace) return;
+  backend::settle();
+  std::vector<std::string> seen_values;
+  std::vector<std::string> expected_values;
   for (std::size_t i = 0; i < backend::ports().size(); ++i) {
     const PortInfo& port = backend::ports()[i];
     std::vector<std::uint32_t> words(port.words());
     std::vector<std::uint32_t> unknown(port.words());
     backend::read(i, words.data(), unknown.data());
-    values.push_back(trace_hex(words, unknown, port.width));
+    seen_values.push_back(trace_hex(words, unknown, port.width));
+    const auto known = expected.find(i);
+    expected_values.push_back(port.is_input             ? seen_values.back()
+                              : known != expected.end() ? known->second
+                                                        : std::string((port.width + 3) / 4, 'x'));
   }
-  trace->line(cycles_, values);
+  expected.clear();
+  if (seen_trace) seen_trace->line(cycles_, seen_values);
+  if (expected_trace) expected_trace->line(cycles_, expected_values);
 }
 
 PortStage::PortStage(std::string_view port, int stage) { stages().emplace_back(port, stage); }

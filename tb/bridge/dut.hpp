@@ -56,13 +56,20 @@ class Dut {
   [[nodiscard]] static std::string_view unit();
   [[nodiscard]] static std::string_view simulator();
 
-  /// Writes a trace from the next clock() on (see tb/trace/trace_writer.hpp).
+  /// What a port must hold in this clock, for the expected trace; checks nothing.
+  void expect(PortId port, std::span<const std::uint32_t> words);
+  /// From the next clock() on writes a trace of what the unit shows (tb/trace/trace_writer.hpp).
   void trace_to(const std::string& path);
+  /// The same of what the bench expects: inputs as applied, outputs as told by expect(), x elsewhere.
+  void trace_expected_to(const std::string& path);
+  /// Writes the lines of the clock that has not come yet; clock() does it by itself.
+  void trace_line();
+  /// Before the first settle() or clock(): all signals into a GHW file for GTKWave (GHDL only).
+  static void waves_to(const std::string& path);
 
  private:
   friend Dut& dut();
   Dut() = default;
-  void trace_line();
 
   std::uint64_t cycles_ = 0;
 };

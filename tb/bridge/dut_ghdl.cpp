@@ -12,6 +12,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <string>
+#include <vector>
 
 #include "bench_ports.hpp"
 #include "bridge/backend.hpp"
@@ -35,6 +37,8 @@ struct Port {
 #define RAPLAS_INFO(name, width, is_input, first) PortInfo{#name, width, is_input},
 constexpr std::array kPorts{RAPLAS_PORTS(RAPLAS_PORT)};
 constexpr std::array kInfos{RAPLAS_PORTS(RAPLAS_INFO)};
+
+std::string wave_file;  // NOLINT: one simulation a process
 
 struct Simulation {
   std::array<std::uint8_t, RAPLAS_DIN_BITS> din;
@@ -78,10 +82,11 @@ Simulation& simulation() {
 
 void Simulation::main() {
   // numeric_std warns of metavalues before a pipeline is filled: has_unknown() is for that.
-  std::array arguments{std::array<char, 32>{"bench"}, std::array<char, 32>{"--ieee-asserts=disable"},
-                       std::array<char, 32>{"--assert-level=error"}};
-  std::array<char*, arguments.size() + 1> argv{};
-  for (std::size_t i = 0; i < arguments.size(); ++i) argv[i] = arguments[i].data();
+  std::vector<std::string> arguments{"bench", "--ieee-asserts=disable", "--assert-level=error"};
+  if (!wave_file.empty()) arguments.push_back("--wave=" + wave_file);
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  argv.push_back(nullptr);
   ghdl_main(static_cast<int>(arguments.size()), argv.data());
   simulation().ended = true;
 }
@@ -91,6 +96,7 @@ void Simulation::main() {
 std::string_view simulator() { return "ghdl"; }
 std::string_view unit() { return RAPLAS_UNIT; }
 std::span<const PortInfo> ports() { return kInfos; }
+void waves_to(const std::string& path) { wave_file = path; }
 
 void write(std::size_t port, const std::uint32_t* words) {
   const PortInfo& info = kPorts[port].info;

@@ -7,7 +7,10 @@
 
 #include <array>
 #include <bit>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <string>
 
 #include "bench_ports.hpp"
 #include "bridge/backend.hpp"
@@ -73,6 +76,12 @@ bool read(std::size_t port, std::uint32_t* words, std::uint32_t* unknown) {
   std::memcpy(words, storage.data, storage.bytes);
   if (unknown != nullptr) std::memset(unknown, 0, kPorts[port].words() * sizeof(std::uint32_t));
   return false;
+}
+
+void waves_to(const std::string& path) {
+  std::fprintf(stderr, "bench of %s: waves into %s: only the ghdl benches write waves\n", RAPLAS_UNIT,
+               path.c_str());
+  std::exit(2);
 }
 
 void settle() { model().unit.eval(); }

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstddef>
 #include <deque>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "bridge/dut.hpp"
@@ -37,6 +39,9 @@ class Scoreboard {
 
 /// A port of up to 64 bits must be known and hold `expected`; counts the check.
 inline void expect_port(PortId port, std::uint64_t expected, const char* name) {
+  const std::array<std::uint32_t, 2> words{static_cast<std::uint32_t>(expected),
+                                           static_cast<std::uint32_t>(expected >> 32)};
+  dut().expect(port, std::span(words).first(dut().width(port) > 32 ? 2 : 1));
   ASSERT_FALSE(dut().has_unknown(port)) << name << " is unknown in clock " << dut().cycles();
   ASSERT_EQ(dut().get(port), expected) << name << std::hex << " in clock 0x" << dut().cycles()
                                        << ": expected 0x" << expected << ", seen 0x" << dut().get(port);
@@ -46,6 +51,7 @@ inline void expect_port(PortId port, std::uint64_t expected, const char* name) {
 /// A wide port must be known and hold `expected`; counts the check.
 template <std::size_t kWords>
 void expect_port(PortId port, const std::array<std::uint32_t, kWords>& expected, const char* name) {
+  dut().expect(port, expected);
   ASSERT_FALSE(dut().has_unknown(port)) << name << " is unknown in clock " << dut().cycles();
   std::array<std::uint32_t, kWords> seen{};
   dut().get(port, seen);

@@ -5,8 +5,8 @@
 //   0 a_i=3f0000 b_i=3f0000 sum_o=xxxxxx
 //   1 a_i=...
 //
-// A line shows the inputs applied before that clock's rising edge and the outputs
-// settled after it. An x digit is an unknown value; in an expected trace: do not compare.
+// A line shows the inputs of a clock and the outputs that settle with them, before its rising
+// edge. An x digit is an unknown value; in an expected trace: do not compare.
 #pragma once
 
 #include <cstdint>

@@ -55,7 +55,7 @@ struct Field {
   int width;
 };
 
-/// a node of the sphere tree; its children are first .. first+count-1: triangles in a leaf, else spheres
+/// node of the sphere tree; children first .. first+count-1: triangles in a leaf, else spheres
 struct SphereLayout {
   static constexpr int kBits = 124;
   static constexpr Field cx{100, 24};

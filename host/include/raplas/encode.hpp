@@ -24,8 +24,8 @@ template <typename F>
 }
 
 /// The words of the Sphere and Triangle memories. Vertices and edges are rounded to nearest, N = E1 x E2 is
-/// made from the rounded edges; radii are enlarged by the error bound of the plane-sphere test and rounded up.
-/// Throws std::runtime_error if the memories are too small.
+/// made from the rounded edges; radii are enlarged by the error bound of the plane-sphere test and rounded
+/// up. Throws std::runtime_error if the memories are too small.
 template <typename F>
 [[nodiscard]] SceneMemory<F> encode(const DeviceScene& scene, const DeviceOptions& options) {
   const auto check = [](const char* what, std::size_t size, std::size_t depth) {
@@ -38,7 +38,8 @@ template <typename F>
   SceneMemory<F> memory;
   memory.triangles.reserve(scene.triangles.size());
   for (const Triangle& t : scene.triangles) {
-    TriangleWord<F> word{encode<F>(t.v0, "vertex coordinate"), encode<F>(t.e1, "edge"), encode<F>(t.e2, "edge"), {}};
+    TriangleWord<F> word{
+        encode<F>(t.v0, "vertex coordinate"), encode<F>(t.e1, "edge"), encode<F>(t.e2, "edge"), {}};
     word.n = encode<F>(glm::cross(decode(word.e1), decode(word.e2)), "normal");
     memory.triangles.push_back(word);
   }
@@ -46,7 +47,8 @@ template <typename F>
   for (const SphereNode& node : scene.nodes) {
     const Vec3<F> centre = encode<F>(node.centre, "sphere centre");
     const double radius = conservative_radius(decode(centre), node.radius, scene.max_origin);
-    memory.spheres.push_back({centre, F::from_double_up(radius, "sphere radius"), node.leaf, node.count, node.first});
+    memory.spheres.push_back(
+        {centre, F::from_double_up(radius, "sphere radius"), node.leaf, node.count, node.first});
   }
   memory.scene = {static_cast<std::uint32_t>(scene.nodes.size()), scene.root_count, scene.root_first};
   return memory;
@@ -80,7 +82,8 @@ template <typename F>
   if (!word.hit) {
     return {};
   }
-  return {true, word.triangle, word.t.to_double(), word.d.to_double(), word.u.to_double(), word.v.to_double()};
+  return {
+      true, word.triangle, word.t.to_double(), word.d.to_double(), word.u.to_double(), word.v.to_double()};
 }
 
 }  // namespace raplas

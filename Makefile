@@ -1,0 +1,81 @@
+# RAPLAS: the front door. `make` lists what there is.
+SHELL := /bin/bash
+.SHELLFLAGS := -euo pipefail -c
+.DEFAULT_GOAL := help
+
+BUILD ?= build
+JOBS ?= $(shell nproc)
+SCENE ?= scenes/cornell_teapot.json
+PROFILE ?= paper
+SIZE ?= 128
+UNIT ?=
+PRIM ?= generic
+SIM ?= verilator
+
+.PHONY: help setup configure build render model sim test lint netlist figures trace waves scenes clean
+
+help: ## this list
+	@echo "RAPLAS: ray tracing by planes and bounding spheres, in VHDL, a golden model, and a host"
+	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
+	@echo "settings: SCENE=$(SCENE) PROFILE=$(PROFILE) SIZE=$(SIZE) UNIT=fp_add.. PRIM=generic|xc4v SIM=verilator|ghdl"
+
+setup: ## installs the Debian packages that are missing
+	@scripts/setup.sh --check 2>/dev/null || scripts/setup.sh
+
+configure: setup
+	@[ -f $(BUILD)/build.ninja ] || cmake -S . -B $(BUILD) -G Ninja > /dev/null
+
+build: configure ## the host with the devices reference, model and rtl
+	@ninja -C $(BUILD) -j $(JOBS) raplas
+
+render: build ## renders SCENE on all devices and compares them: pictures in build/render
+	@mkdir -p $(BUILD)/figures
+	$(BUILD)/host/raplas compare $(SCENE) --profile $(PROFILE) --width $(SIZE) --height $(SIZE) \
+	  -o $(BUILD)/render --json $(BUILD)/figures/render.json
+
+model: configure ## builds and tests the golden model and the host without the RTL, with sanitizers
+	@cmake -S . -B $(BUILD)/model -G Ninja -DRAPLAS_WITH_RTL=OFF -DRAPLAS_SANITIZE=ON > /dev/null
+	@ninja -C $(BUILD)/model -j $(JOBS)
+	ctest --test-dir $(BUILD)/model -j $(JOBS) --output-on-failure -LE long
+
+sim: configure lint ## the whole regression: lint, model, host, every unit on Verilator and GHDL
+	@ninja -C $(BUILD) -j $(JOBS)
+	ctest --test-dir $(BUILD) -j $(JOBS) --output-on-failure
+
+test: configure ## only the tests of UNIT
+	@[ -n "$(UNIT)" ] || { echo "make test UNIT=fp_add"; exit 2; }
+	@ninja -C $(BUILD) -j $(JOBS) $(UNIT)
+	ctest --test-dir $(BUILD) -j $(JOBS) --output-on-failure -R '^$(UNIT)\.'
+
+lint: configure ## formatters, linters and generated files
+	@scripts/lint.sh $(BUILD)
+
+netlist: setup ## LUT, FF and DSP48 counts of the units from Yosys (estimates)
+	@scripts/netlist.py --check
+
+figures: ## makes what is missing and collects build/figures.json and README's tables
+	@[ -f $(BUILD)/figures/render.json ] || $(MAKE) render
+	@[ -f $(BUILD)/figures/netlist.json ] || $(MAKE) netlist
+	@[ -f $(BUILD)/figures/stages.fp_add.json ] && [ -f $(BUILD)/figures/radius.json ] || $(MAKE) sim
+	@scripts/figures.py
+
+trace: configure ## traces of UNIT's bench and of its model, compared: build/traces
+	@[ -n "$(UNIT)" ] || { echo "make trace UNIT=fp_add [PRIM=xc4v] [SIM=ghdl]"; exit 2; }
+	@ninja -C $(BUILD) -j $(JOBS) $(UNIT).$(PRIM).$(SIM) raplas_trace_compare
+	@mkdir -p $(BUILD)/traces
+	@$(BUILD)/tb/$(UNIT).$(PRIM).$(SIM) --trace $(BUILD)/traces/$(UNIT).rtl.trace \
+	  --trace-expected $(BUILD)/traces/$(UNIT).model.trace > $(BUILD)/traces/$(UNIT).log || true
+	$(BUILD)/tb/raplas_trace_compare $(BUILD)/traces/$(UNIT).model.trace $(BUILD)/traces/$(UNIT).rtl.trace
+
+waves: configure ## all signals of UNIT's bench for GTKWave: build/waves/UNIT.ghw
+	@[ -n "$(UNIT)" ] || { echo "make waves UNIT=selector [PRIM=xc4v]"; exit 2; }
+	@ninja -C $(BUILD) -j $(JOBS) $(UNIT).$(PRIM).ghdl
+	@mkdir -p $(BUILD)/waves
+	@$(BUILD)/tb/$(UNIT).$(PRIM).ghdl --waves $(BUILD)/waves/$(UNIT).ghw > $(BUILD)/waves/$(UNIT).log || true
+	@echo "gtkwave $(BUILD)/waves/$(UNIT).ghw"
+
+scenes: setup ## fetches the Stanford bunny and dragon and a small bunny: build/scenes
+	@scripts/fetch_scenes.sh
+
+clean: ## removes build
+	rm -rf $(BUILD)

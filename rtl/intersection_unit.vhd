@@ -21,8 +21,8 @@ use raplas.raplas_constants.all;
 
 entity intersection_unit is
   generic (
-    NUM_ROWS              : positive := 4;    -- row testers
-    NUM_COLUMNS           : positive := 4;    -- column testers
+    NUM_ROWS              : positive := 4;    -- row testers: a power of two, at most MAX_ROWS
+    NUM_COLUMNS           : positive := 4;    -- column testers: likewise
     GUARD_BITS            : natural range 0 to 2 := 2;
     SPHERE_ADDRESS_BITS   : positive := 12;   -- 2**12 spheres
     TRIANGLE_ADDRESS_BITS : positive := 12    -- 2**12 triangles
@@ -47,7 +47,7 @@ entity intersection_unit is
     request_o       : out std_ulogic;                               -- sphere and set to the testers
     sphere_o        : out std_ulogic_vector(ID_BITS - 1 downto 0);
     set_o           : out std_ulogic_vector(LINE_BITS - 1 downto 0);
-    stack_level_o   : out std_ulogic_vector(7 downto 0);
+    stack_level_o   : out std_ulogic_vector(STACK_DEPTH_LOG2 downto 0);
     decided_o       : out std_ulogic;                                    -- decoder: sphere decided
     leaf_o          : out std_ulogic;
     push_o          : out std_ulogic;
@@ -60,6 +60,7 @@ entity intersection_unit is
     pair_done_o     : out std_ulogic;                                    -- ray_triangle @29
     hit_o           : out std_ulogic;
     stored_o        : out std_ulogic;
+    stored_ray_o    : out std_ulogic_vector(2 * LINE_BITS - 1 downto 0);
     stored_result_o : out result_word_t
   );
 end entity intersection_unit;
@@ -71,6 +72,7 @@ architecture rtl of intersection_unit is
   constant STEP_BITS     : positive := LINE_BITS + 1;                    -- last set
   constant TAG_BITS      : positive := NODE_BITS + STEP_BITS;
   constant LEAF_BITS     : positive := ID_BITS + COUNT_BITS + MAX_ROWS + MAX_COLUMNS;
+  constant PIPE_BITS     : positive := 6;   -- at most MEMORY_STAGES + 29 pairs are under way
   constant PAIR_BITS     : positive := ID_BITS + 2 * LINE_BITS;
 
   subtype mask_t is std_ulogic_vector(MAX_ROWS - 1 downto 0);
@@ -90,8 +92,9 @@ architecture rtl of intersection_unit is
   -- control
   signal busy       : std_ulogic;
   signal starting   : std_ulogic;   -- the clock after start_i: the pencil's registers are in place
-  signal in_pipe    : unsigned(6 downto 0);   -- pairs issued and not decided
+  signal in_pipe    : unsigned(PIPE_BITS - 1 downto 0);   -- pairs issued and not decided
   signal idle       : std_ulogic;
+  signal clearing   : std_ulogic;   -- hit bits of the bank
 
   -- traversal to decoder
   signal request, first_set, last, traversal_idle : std_ulogic;
@@ -112,7 +115,7 @@ architecture rtl of intersection_unit is
   -- leaf queue to ray_triangle
   signal leaf_in, leaf_out : std_ulogic_vector(LEAF_BITS - 1 downto 0);
   signal leaf_valid        : std_ulogic;
-  signal leaves            : std_ulogic_vector(5 downto 0);
+  signal leaves            : std_ulogic_vector(LEAF_FIFO_DEPTH_LOG2 downto 0);
   signal selector_ready, selector_valid : std_ulogic;
   signal pair_in, pair_out, pair_s2     : std_ulogic_vector(PAIR_BITS - 1 downto 0);
   signal pair_valid, pair_ready         : std_ulogic;
@@ -172,7 +175,7 @@ begin
     end if;
   end process last_set_p;
 
-  idle <= '1' when traversal_idle = '1' and starting = '0' and decided = '0' and leaf_valid = '0'
+  idle <= '1' when traversal_idle = '1' and starting = '0' and clearing = '0' and leaf_valid = '0'
                    and selector_valid = '0' and pair_valid = '0' and in_pipe = 0 else '0';
 
   control_p : process (clk_i)
@@ -430,6 +433,7 @@ begin
       clk_i        => clk_i,
       rst_i        => rst_i,
       clear_i      => starting,
+      clearing_o   => clearing,
       bank_i       => bank,
       write_i      => stored,
       write_ray_i  => stored_ray,
@@ -459,6 +463,7 @@ begin
   pair_done_o     <= pair_done;
   hit_o           <= hit;
   stored_o        <= stored;
+  stored_ray_o    <= stored_ray;
   stored_result_o <= stored_result;
 
 end architecture rtl;

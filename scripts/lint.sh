@@ -7,11 +7,12 @@ cd "$(dirname "$0")/.."
 build=${1:?usage: scripts/lint.sh BUILD}
 
 mapfile -t cpp < <(git ls-files -- '*.cpp' '*.hpp' ':!:cmodel/include/raplas/constants.hpp')
-mapfile -t sources < <(git ls-files -- 'cmodel/*.cpp' 'host/*.cpp')
+mapfile -t sources < <(git ls-files -- 'host/src/*.cpp' 'tb/bridge/*.cpp' 'tb/trace/*.cpp')
 mapfile -t vhdl < <(git ls-files -- 'rtl/*.vhd' 'tb/*.vhd' ':!:tb/broken')
 
 echo "lint: generated files"
 scripts/constants.py --check
+scripts/pipeline_svg.py --check
 
 echo "lint: clang-format, ${#cpp[@]} files"
 clang-format --dry-run --Werror "${cpp[@]}"

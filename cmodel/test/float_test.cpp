@@ -45,7 +45,15 @@ TEST(Float, SubtractIsTheExactDifferenceTruncated) {
 
 TEST(Float, PaperAddCutsTheSmallerOperandFirst) {
   for_pairs([](std::uint32_t a, std::uint32_t b) {
-    EXPECT_EQ((paper(a) + paper(b)).bits(), oracle::add_paper(a, b)) << std::hex << a << " + " << b;
+    EXPECT_EQ((paper(a) + paper(b)).bits(), oracle::add_cut(a, b, 0)) << std::hex << a << " + " << b;
+  });
+}
+
+TEST(Float, OneGuardBitCutsABitLower) {
+  using F = Float<Format{kExponentBits, kFractionBits, Guard::one, Rounding::toward_zero}>;
+  for_pairs([](std::uint32_t a, std::uint32_t b) {
+    EXPECT_EQ((F::from_bits(a) + F::from_bits(b)).bits(), oracle::add_cut(a, b, 1))
+        << std::hex << a << " + " << b;
   });
 }
 

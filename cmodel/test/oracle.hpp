@@ -69,9 +69,9 @@ class Real {
   return sum.word();
 }
 
-/// a + b as the paper's 18-bit datapath gives it: the operand of smaller magnitude is first cut at the last
-/// bit of the larger one.
-[[nodiscard]] inline std::uint32_t add_paper(std::uint32_t a, std::uint32_t b) {
+/// a + b of an adder with a few guard bits and no sticky bit: the operand of smaller magnitude is first cut
+/// `guard_bits` below the last bit of the larger one. 0 guard bits: the paper's 18-bit datapath.
+[[nodiscard]] inline std::uint32_t add_cut(std::uint32_t a, std::uint32_t b, int guard_bits) {
   Real larger(a);
   Real smaller(b);
   std::uint32_t exponent_word = a;
@@ -79,7 +79,7 @@ class Real {
     mpfr_swap(larger.get(), smaller.get());
     exponent_word = b;
   }
-  const long ulp = static_cast<long>((exponent_word >> 16) & 127) - 63 - 16;
+  const long ulp = static_cast<long>((exponent_word >> 16) & 127) - 63 - 16 - guard_bits;
   mpfr_mul_2si(smaller.get(), smaller.get(), -ulp, MPFR_RNDN);
   mpfr_trunc(smaller.get(), smaller.get());
   mpfr_mul_2si(smaller.get(), smaller.get(), ulp, MPFR_RNDN);

@@ -5,7 +5,7 @@
 --       exponents into registers                 dsp_addsub
 --   @2  product out, exponents added, minus bias
 -- |a| * |b| = significand * 2^(exponent - EXPONENT_BIAS - 2 * FRACTION_BITS),
--- significand 0 or 2^32 .. 2^34 - 1. Two DSP48.
+-- significand 0 or 2^32 .. 2^34 - 1. Two DSP48 of one tile.
 -- model: cmodel/include/raplas/float.hpp     tests: tb/unit/fp_mul, tb/unit/nearest_hit
 -- ============================================================================
 library ieee;
@@ -39,6 +39,7 @@ begin
   significand_i : entity raplas.dsp_mul
     port map (
       clk_i => clk_i,
+      c_i   => c,
       a_i   => a,
       b_i   => b,
       p_o   => significand_o

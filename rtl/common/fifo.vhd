@@ -4,7 +4,7 @@
 --   @1  a word written is at the front of an empty queue
 -- DEPTH is a power of two. A write into a full queue and a read from an empty
 -- one are ignored; read and write in one clock are independent.
--- model: cmodel/include/raplas/fifo.hpp     tests: tb/unit/fifo
+-- model: cmodel/include/raplas/clocked.hpp     tests: tb/unit/fifo
 -- ============================================================================
 library ieee;
 use ieee.std_logic_1164.all;

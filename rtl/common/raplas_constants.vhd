@@ -39,6 +39,8 @@ package raplas_constants is
   constant COUNTER_BITS : natural := 32;
   -- entries of the traversal stack
   constant STACK_DEPTH : natural := 128;
+  -- STACK_DEPTH = 2^7
+  constant STACK_DEPTH_LOG2 : natural := 7;
   -- from this many stacked ranges on the traversal takes one range at a time
   constant STACK_WATERMARK : natural := 48;
   -- leaves waiting for the selector

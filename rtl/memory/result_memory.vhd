@@ -16,7 +16,8 @@ entity result_memory is
   port (
     clk_i        : in  std_ulogic;
     rst_i        : in  std_ulogic;
-    clear_i      : in  std_ulogic;                                    -- starts to clear bank_i
+    clear_i      : in  std_ulogic;                                    -- starts to clear bank_i ...
+    clearing_o   : out std_ulogic;                                    -- ... which is not over yet
     bank_i       : in  std_ulogic;                                    -- of the running pencil
     write_i      : in  std_ulogic;
     write_ray_i  : in  std_ulogic_vector(2 * LINE_BITS - 1 downto 0);
@@ -133,6 +134,7 @@ begin
     end if;
   end process hits_p;
 
+  clearing_o  <= clearing;
   best_o      <= best_hit(1) & best_data;
   host_data_o <= host_hit(1) & host_data;
 

@@ -49,11 +49,11 @@ architecture rtl of selector is
   signal rin   : reg_t;
   signal ready : std_ulogic;
 
-  function lowest(mask : std_ulogic_vector(15 downto 0)) return unsigned is
+  function lowest(mask : row_mask_t) return unsigned is
     variable lowest_v : unsigned(LINE_BITS - 1 downto 0);
   begin
     lowest_v := (others => '0');
-    for k in 15 downto 0 loop
+    for k in mask'high downto mask'low loop
       if mask(k) = '1' then
         lowest_v := to_unsigned(k, LINE_BITS);
       end if;
@@ -61,7 +61,7 @@ architecture rtl of selector is
     return lowest_v;
   end function lowest;
 
-  function without_lowest(mask : std_ulogic_vector(15 downto 0)) return std_ulogic_vector is
+  function without_lowest(mask : row_mask_t) return row_mask_t is
   begin
     return mask and std_ulogic_vector(unsigned(mask) - 1);
   end function without_lowest;

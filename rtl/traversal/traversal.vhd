@@ -31,13 +31,13 @@ entity traversal is
     push_first_i  : in  std_ulogic_vector(ID_BITS - 1 downto 0);
     push_count_i  : in  std_ulogic_vector(COUNT_BITS - 1 downto 0);   -- 1 .. 127
     decided_i     : in  std_ulogic;                                   -- a sphere leaves the testers
-    leaves_i      : in  std_ulogic_vector(5 downto 0);                -- words in the leaf queue
+    leaves_i      : in  std_ulogic_vector(LEAF_FIFO_DEPTH_LOG2 downto 0);  -- words in the leaf queue
     request_o     : out std_ulogic;                                   -- address and set are valid
     first_o       : out std_ulogic;                                   -- first set of this sphere
     last_o        : out std_ulogic;                                   -- last set of this sphere
     address_o     : out std_ulogic_vector(ID_BITS - 1 downto 0);
     set_o         : out std_ulogic_vector(LINE_BITS - 1 downto 0);
-    stack_level_o : out std_ulogic_vector(7 downto 0);                -- stacked ranges
+    stack_level_o : out std_ulogic_vector(STACK_DEPTH_LOG2 downto 0);  -- stacked ranges
     idle_o        : out std_ulogic   -- nothing left, nothing under test
   );
 end entity traversal;
@@ -45,6 +45,8 @@ end entity traversal;
 architecture rtl of traversal is
 
   subtype id_t is unsigned(ID_BITS - 1 downto 0);
+  subtype level_t is unsigned(STACK_DEPTH_LOG2 downto 0);
+  subtype tested_t is unsigned(LEAF_FIFO_DEPTH_LOG2 + 1 downto 0);
   subtype range_count_t is unsigned(ID_BITS downto 0);
   subtype entry_t is std_ulogic_vector(ID_BITS + COUNT_BITS - 1 downto 0);
   type stack_t is array (natural range 0 to STACK_DEPTH - 1) of entry_t;
@@ -54,8 +56,8 @@ architecture rtl of traversal is
     address    : id_t;
     left       : range_count_t;          -- spheres of the range, this one included
     set        : unsigned(LINE_BITS - 1 downto 0);
-    level      : unsigned(7 downto 0);   -- stacked ranges
-    under_test : unsigned(6 downto 0);   -- spheres started and not decided
+    level      : level_t;        -- stacked ranges
+    under_test : tested_t;       -- spheres started and not decided
   end record;
 
   signal r       : reg_t;
@@ -80,7 +82,7 @@ begin
 
     -- the sphere in front: its first set waits for room, the others follow at once
     request_v := r.active;
-    if r.set = 0 and r.under_test + resize(unsigned(leaves_i), 7) >= LEAF_FIFO_DEPTH then
+    if r.set = 0 and r.under_test + resize(unsigned(leaves_i), tested_t'length) >= LEAF_FIFO_DEPTH then
       request_v := '0';
     end if;
     ending_v := false;
@@ -154,12 +156,12 @@ begin
   begin
     if rising_edge(clk_i) then
       if write = '1' then
-        stack(to_integer(r.level(6 downto 0))) <= push_first_i & push_count_i;
+        stack(to_integer(r.level(STACK_DEPTH_LOG2 - 1 downto 0))) <= push_first_i & push_count_i;
       end if;
     end if;
   end process stack_p;
 
-  top <= stack(to_integer(r.level(6 downto 0) - 1));
+  top <= stack(to_integer(r.level(STACK_DEPTH_LOG2 - 1 downto 0) - 1));
 
   request_o     <= request;
   first_o       <= '1' when r.set = 0 else '0';

@@ -38,6 +38,8 @@ inline constexpr int kCountBits = 7;
 inline constexpr int kCounterBits = 32;
 /// entries of the traversal stack
 inline constexpr int kStackDepth = 128;
+/// STACK_DEPTH = 2^7
+inline constexpr int kStackDepthLog2 = 7;
 /// from this many stacked ranges on the traversal takes one range at a time
 inline constexpr int kStackWatermark = 48;
 /// leaves waiting for the selector
@@ -142,7 +144,7 @@ enum class Target : int {
 
 /// Event counters, in the order of the RTL's counter bus.
 enum class Counter : int {
-  cycles = 0,  ///< clocks from start to done
+  cycles = 0,  ///< clocks with busy_o = 1
   spheres_tested = 1,  ///< spheres given to the plane-sphere testers
   spheres_skipped = 2,  ///< spheres never read because an ancestor was dropped
   plane_tests = 3,  ///< tests of one plane against one sphere

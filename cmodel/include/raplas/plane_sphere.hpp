@@ -53,9 +53,8 @@ class PlaneSphereDecoder {
         r_.row_mask = 0;
         r_.column_mask = 0;
       }
-      r_.row_mask |= (flags.rows & low_bits(row_testers_)) << (set * row_testers_) & low_bits(rows);
-      r_.column_mask |=
-          (flags.columns & low_bits(column_testers_)) << (set * column_testers_) & low_bits(columns);
+      r_.row_mask |= lines(flags.rows, row_testers_, set, rows);
+      r_.column_mask |= lines(flags.columns, column_testers_, set, columns);
     }
     r_.decided = valid && last;
     const bool meet = r_.decided && r_.row_mask != 0 && r_.column_mask != 0;
@@ -65,6 +64,13 @@ class PlaneSphereDecoder {
 
  private:
   static constexpr std::uint32_t low_bits(int count) noexcept { return (std::uint32_t{1} << count) - 1; }
+
+  /// The flags of a set at the places of its lines; those beyond the pencil's `count` are dropped.
+  static constexpr std::uint32_t lines(std::uint32_t flags, int testers, int set, int count) noexcept {
+    const std::uint64_t placed =
+        set * testers < 32 ? std::uint64_t{flags & low_bits(testers)} << (set * testers) : 0;
+    return static_cast<std::uint32_t>(placed) & low_bits(count);
+  }
 
   int row_testers_;
   int column_testers_;

@@ -13,6 +13,7 @@ use ieee.numeric_std.all;
 entity dsp_mul is
   port (
     clk_i : in  std_ulogic;
+    c_i   : in  std_ulogic_vector(47 downto 0);  -- C port of the tile: not used, see prim/xc4v
     a_i   : in  std_ulogic_vector(16 downto 0);
     b_i   : in  std_ulogic_vector(16 downto 0);
     p_o   : out std_ulogic_vector(33 downto 0)

@@ -3,7 +3,9 @@
 -- ----------------------------------------------------------------------------
 --   @1  product                                  DSP48 M register
 --   @2  output register                          DSP48 P register
--- One DSP48, its C port unused. Exact: the 18-bit ports are signed, bit 17 is 0.
+-- One DSP48. Exact: the 18-bit ports are signed, bit 17 is 0. The two DSP48s of a
+-- Virtex-4 tile share one C port and its register (CREG = 1 here): to share a tile
+-- with a dsp_addsub this one gets the same c_i, and ignores it.
 -- model: cmodel/include/raplas/float.hpp     tests: tb/unit/dsp_mul
 -- ============================================================================
 library ieee;
@@ -14,6 +16,7 @@ use unisim.vcomponents.all;
 entity dsp_mul is
   port (
     clk_i : in  std_ulogic;
+    c_i   : in  std_ulogic_vector(47 downto 0);  -- C port of the tile: not used, see above
     a_i   : in  std_ulogic_vector(16 downto 0);
     b_i   : in  std_ulogic_vector(16 downto 0);
     p_o   : out std_ulogic_vector(33 downto 0)
@@ -26,17 +29,19 @@ architecture rtl of dsp_mul is
   constant ZERO_48  : std_logic_vector(47 downto 0) := (others => '0');
   signal a : std_logic_vector(17 downto 0);
   signal b : std_logic_vector(17 downto 0);
+  signal c : std_logic_vector(47 downto 0);
   signal p : std_logic_vector(47 downto 0);
 begin
 
   a <= '0' & std_logic_vector(a_i);
   b <= '0' & std_logic_vector(b_i);
+  c <= std_logic_vector(c_i);
 
   dsp_i : DSP48
     generic map (
       AREG          => 0,
       BREG          => 0,
-      CREG          => 0,
+      CREG          => 1,
       MREG          => 1,
       PREG          => 1,
       CARRYINREG    => 0,
@@ -49,7 +54,7 @@ begin
     port map (
       A          => a,
       B          => b,
-      C          => ZERO_48,
+      C          => c,
       BCIN       => ZERO_18,
       PCIN       => ZERO_48,
       CARRYIN    => '0',

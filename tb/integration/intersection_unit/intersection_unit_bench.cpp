@@ -223,6 +223,7 @@ class IntersectionUnitBench : public testing::Test {
     ASSERT_NO_FATAL_FAILURE(expect("hit_o", e.hit ? 1 : 0));
     ASSERT_NO_FATAL_FAILURE(expect("stored_o", e.stored ? 1 : 0));
     if (e.pair_done) {
+      ASSERT_NO_FATAL_FAILURE(expect("stored_ray_o", e.stored_ray));
       ASSERT_NO_FATAL_FAILURE(expect_port(dut().port("stored_result_o"), e.result.pack(), "stored_result_o"));
     }
   }
@@ -257,6 +258,22 @@ TEST_F(IntersectionUnitBench, TracesTheFlatListOfThePaper) {
     ASSERT_NO_FATAL_FAILURE(check(scene, pencil, 0));
   }
   EXPECT_EQ(total_[static_cast<std::size_t>(Counter::spheres_skipped)], 0U);
+}
+
+TEST_F(IntersectionUnitBench, EndsAPencilOfAnEmptySceneWithItsHitsCleared) {
+  Scenes scenes(124);
+  const SceneMemory<F> full = scenes.scene(0, 30);
+  const PencilMemory<F> pencil = scenes.pencil(4, 4);
+  load(full);
+  load(pencil, 0);
+  load(pencil, 1);
+  ASSERT_NO_FATAL_FAILURE(run(0));
+  SceneMemory<F> empty;
+  empty.spheres.resize(1);  // the address that the idle unit reads
+  load(empty);
+  ASSERT_NO_FATAL_FAILURE(run(0));
+  ASSERT_NO_FATAL_FAILURE(run(1));  // at once: the first bank must be clear by then
+  ASSERT_NO_FATAL_FAILURE(check(empty, pencil, 0));
 }
 
 TEST_F(IntersectionUnitBench, LoadsTheOtherBankWhileAPencilRuns) {

@@ -21,6 +21,7 @@ TEST(DspMul, MultipliesUnsignedEveryClock) {
     const auto word = [&random] { return random() % 8 == 0 ? 0x1ffff - random() % 2 : random() & 0x1ffff; };
     const std::uint64_t x = word();
     const std::uint64_t y = word();
+    unit.set(unit.port("c_i"), random() & 0xffffffffffff);  // shared, not used
     unit.set(a, x);
     unit.set(b, y);
     if (const auto due = board.clock(x * y)) {

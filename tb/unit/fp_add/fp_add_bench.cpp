@@ -1,4 +1,4 @@
-// fp_add against MPFR. GUARD_BITS (0 or 2) and SUBTRACT (0 or 1) are the unit's generics.
+// fp_add against MPFR. GUARD_BITS (0, 1 or 2) and SUBTRACT (0 or 1) are the unit's generics.
 #include "operands.hpp"
 #include "oracle.hpp"
 #include "raplas/constants.hpp"
@@ -13,7 +13,7 @@ const PortStage kStage{"sum_o", kAddStages};
 
 std::uint32_t expected(std::uint32_t a, std::uint32_t b) {
   const std::uint32_t addend = SUBTRACT != 0 ? oracle::negate(b) : b;
-  return GUARD_BITS == 0 ? oracle::add_paper(a, addend) : oracle::add(a, addend);
+  return GUARD_BITS < 2 ? oracle::add_cut(a, addend, GUARD_BITS) : oracle::add(a, addend);
 }
 
 class FpAdd : public testing::Test {

@@ -66,13 +66,17 @@ TEST_F(Decoder, MasksAreTheFlagsOfTheSetsInOrder) {
   dut().set(dut().port("leaf_i"), 1);
   std::uint32_t row_mask = 0;
   std::uint32_t column_mask = 0;
-  for (int set = 0; set < kMaxRows / ROWS; ++set) {
-    row_mask |= static_cast<std::uint32_t>(set + 1) << (set * ROWS);
-    column_mask |= static_cast<std::uint32_t>(15 - set) << (set * COLUMNS);
+  const int sets = std::max(kMaxRows / ROWS, kMaxColumns / COLUMNS);
+  for (int set = 0; set < sets; ++set) {
+    const std::uint64_t row_flags = static_cast<std::uint64_t>(set + 1) & ((1U << ROWS) - 1U);
+    const std::uint64_t column_flags = static_cast<std::uint64_t>(15 - set) & ((1U << COLUMNS) - 1U);
+    row_mask |= set * ROWS < kMaxRows ? static_cast<std::uint32_t>(row_flags << (set * ROWS)) : 0U;
+    column_mask |=
+        set * COLUMNS < kMaxColumns ? static_cast<std::uint32_t>(column_flags << (set * COLUMNS)) : 0U;
     dut().set(dut().port("set_i"), static_cast<std::uint64_t>(set));
-    dut().set(dut().port("last_i"), set == kMaxRows / ROWS - 1 ? 1 : 0);
-    dut().set(dut().port("row_flags_i"), static_cast<std::uint64_t>(set + 1));
-    dut().set(dut().port("column_flags_i"), static_cast<std::uint64_t>(15 - set));
+    dut().set(dut().port("last_i"), set == sets - 1 ? 1 : 0);
+    dut().set(dut().port("row_flags_i"), row_flags);
+    dut().set(dut().port("column_flags_i"), column_flags);
     dut().clock();
   }
   expect_port(dut().port("leaf_o"), 1, "leaf_o");

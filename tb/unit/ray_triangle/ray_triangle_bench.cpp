@@ -20,7 +20,7 @@ const PortStage kResultStage{"result_o", kRayTriangleStages};
 const PortStage kBestStageOf{"best_ray_o", kBestStage};
 
 std::uint32_t add(std::uint32_t a, std::uint32_t b) {
-  return GUARD_BITS == 0 ? oracle::add_paper(a, b) : oracle::add(a, b);
+  return GUARD_BITS == 0 ? oracle::add_cut(a, b, 0) : oracle::add(a, b);
 }
 std::uint32_t subtract(std::uint32_t a, std::uint32_t b) { return add(a, oracle::negate(b)); }
 

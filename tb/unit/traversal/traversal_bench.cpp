@@ -107,8 +107,21 @@ TEST_F(TraversalBench, WalksRandomTreesOnce) {
 TEST_F(TraversalBench, StaysWithinTheStackOnTheDeepestTreeThatTheHostAccepts) {
   // the bound: a path's sum of (inner children - 1) <= kStackDepth - kStackWatermark - kLeafFifoDepth = 48
   constexpr std::uint32_t kWidth = 17;
-  std::mt19937 random(83);
-  walk(random_tree(random, kWidth, kWidth, 3, 100), kWidth, 0, 15, 100);
+  constexpr int kInnerLevels = 3;  // 3 * (17 - 1) = 48
+  std::vector<Node> nodes(kWidth);
+  std::size_t begin = 0;
+  for (int level = 0; level < kInnerLevels; ++level) {
+    const std::size_t end = nodes.size();
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::uint32_t count = level + 1 < kInnerLevels ? kWidth : 1;
+      nodes[k] = {true, static_cast<std::uint32_t>(nodes.size()), count};
+      nodes.resize(nodes.size() + count);
+    }
+    begin = end;
+  }
+  for (const int latency : {15, 31, 60}) {
+    walk(nodes, kWidth, 0, latency, 100);
+  }
   EXPECT_GT(highest_, kStackWatermark) << "the test does not reach the watermark";
 }
 

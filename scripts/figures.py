@@ -1,0 +1,193 @@
+#!/usr/bin/env python3
+"""Collect measured figures, and fill the tables of README.md with them.
+
+usage: figures.py [--require NAME ...] [--check] [--build DIR] [--readme FILE]
+
+Merges DIR/figures/*.json (DIR: build) into DIR/figures.json, {"name": {"value", "unit", "command"}},
+sorted. A figure may come from several files when all give the same value and unit. In FILE (README.md;
+left alone when there is none) the lines between "<!-- figures:TABLE -->" and "<!-- /figures -->"
+become the table TABLE of TABLES below. A figure that was not measured shows as a dash.
+
+--require  exits 1 when one of these figures is missing; "dsp48.*" asks for at least one
+--check    writes nothing in FILE and exits 1 when a table in it is stale
+"""
+import argparse
+import fnmatch
+import json
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+MARK = re.compile(r"(?ms)^(<!-- figures:(\w+) -->\n)(.*?)^(<!-- /figures -->)$")
+DASH = "-"
+
+# What the paper reports for the XC4VSX35 with ISE 8.2.
+PAPER = {
+    "paper.slices.plane_sphere_subunit": 8248,
+    "paper.dsp48.plane_sphere_subunit": 96,
+    "paper.slices.ray_triangle": 5282,
+    "paper.dsp48.ray_triangle": 70,
+}
+
+# A table has columns (heading, kind) and rows (text, key): a cell shows the figure kind.key. The kinds
+# "value", "unit" and "command" show that part of the figure `key` itself; optional rows vanish without it.
+UNITS = ("fp_add", "fp_mul", "plane_sphere_tester", "plane_sphere_subunit", "nearest_hit", "ray_triangle",
+         "intersection_unit")
+ONE_FIGURE = (("value", "value"), ("unit", "unit"), ("command", "command"))
+TABLES = {
+    "hardware": {
+        "head": "unit",
+        "columns": (("clocks", "stages"), ("DSP48", "dsp48"), ("LUT", "lut"), ("FF", "ff"),
+                    ("RAMB16", "block_ram"), ("slices, estimated", "slices_estimated"),
+                    ("paper: slices (ISE)", "paper.slices"), ("paper: DSP48", "paper.dsp48")),
+        "rows": tuple((f"`{unit}`", unit) for unit in UNITS),
+        "optional": (),
+    },
+    "render": {
+        "head": "model against RTL",
+        "columns": ONE_FIGURE,
+        "rows": (
+            ("bits that differ in the hits", "render.differing_bits"),
+            ("event counters that differ", "render.differing_counters"),
+            ("hits compared", "render.hits_compared"),
+            ("pixels off the reference by more than 2 of 255", "render.pixels_off_reference"),
+            ("pixels", "render.pixels"),
+            ("simulation speed", "sim.cycles_per_second"),
+        ),
+        "optional": ("render.hits_compared",),
+    },
+    "radius": {
+        "head": "stored radius",
+        "columns": ONE_FIGURE,
+        "rows": (
+            ("cases", "radius.cases"),
+            ("true hits lost", "radius.lost_hits"),
+            ("true hits lost without the enlargement", "radius.lost_hits_unenlarged"),
+            ("extra false hits", "radius.extra_false_hits_percent"),
+        ),
+        "optional": ("radius.lost_hits_unenlarged", "radius.extra_false_hits_percent"),
+    },
+}
+
+
+def fail(message):
+    sys.exit(f"figures: {message}")
+
+
+def read(path):
+    """The figures of one file, each with exactly a value, a unit and a command."""
+    def pairs(items):
+        names = [name for name, _ in items]
+        if twice := {name for name in names if names.count(name) > 1}:
+            fail(f"{path}: {', '.join(sorted(twice))}: given twice")
+        return dict(items)
+
+    try:
+        figures = json.loads(path.read_text(), object_pairs_hook=pairs)
+    except ValueError as error:
+        fail(f"{path}: broken JSON: {error}")
+    if not isinstance(figures, dict):
+        fail(f"{path}: not an object of figures")
+    for name, figure in figures.items():
+        if not isinstance(figure, dict) or set(figure) != {"value", "unit", "command"}:
+            fail(f"{path}: {name}: a figure has value, unit and command, and nothing else")
+        if isinstance(figure["value"], bool) or not isinstance(figure["value"], (int, float, str)):
+            fail(f"{path}: {name}: the value is no number and no text")
+    return figures
+
+
+def collect(folder):
+    """All figures of a folder; two files may give the same one, but not different ones."""
+    figures, source = {}, {}
+    for path in sorted(folder.glob("*.json")):
+        for name, figure in read(path).items():
+            if name in figures and any(figures[name][k] != figure[k] for k in ("value", "unit")):
+                fail(f"{name}: {figures[name]['value']} {figures[name]['unit']} in {source[name]}, "
+                     f"{figure['value']} {figure['unit']} in {path}")
+            figures.setdefault(name, figure)
+            source.setdefault(name, path)
+    return dict(sorted(figures.items()))
+
+
+def shown(value):
+    """A number for the reader: thousands separated, large or fractional ones to three digits."""
+    if isinstance(value, float):
+        if value != 0 and abs(value) < 1000:
+            return f"{value:.3g}"
+        value = round(value)
+    return f"{value:,}" if isinstance(value, int) else value
+
+
+def cell(figures, kind, key):
+    if kind in ("value", "unit", "command"):
+        part = figures.get(key, {}).get(kind)
+        return f"`{part}`" if kind == "command" and part else DASH if part is None else shown(part)
+    name = f"{kind}.{key}"
+    if name in PAPER:
+        return shown(PAPER[name])
+    if kind.startswith("paper."):
+        return ""
+    return shown(figures[name]["value"]) if name in figures else DASH
+
+
+def table(name, figures):
+    """The Markdown lines of a table."""
+    if name not in TABLES:
+        fail(f"no table {name}, but: {', '.join(TABLES)}")
+    spec = TABLES[name]
+    lines = [f"| {spec['head']} | " + " | ".join(heading for heading, _ in spec["columns"]) + " |"]
+    right = ["---" if kind in ("unit", "command") else "---:" for _, kind in spec["columns"]]
+    lines.append("| --- | " + " | ".join(right) + " |")
+    for text, key in spec["rows"]:
+        if key in spec["optional"] and key not in figures:
+            continue
+        lines.append(f"| {text} | " + " | ".join(cell(figures, kind, key) for _, kind in spec["columns"]) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def fill(text, figures):
+    """(text with its tables filled, names of those that changed)."""
+    changed, found = [], []
+
+    def replace(match):
+        found.append(match[2])
+        new = table(match[2], figures)
+        if new != match[3]:
+            changed.append(match[2])
+        return match[1] + new + match[4]
+
+    filled = MARK.sub(replace, text)
+    opened = re.findall(r"<!-- figures:(\w+) -->", text)
+    if opened != found or text.count("<!-- /figures -->") != len(found):
+        fail(f"the marks of a table don't pair, or aren't alone on their lines: {', '.join(opened)}")
+    return filled, changed
+
+
+def main():
+    parser = argparse.ArgumentParser(usage=__doc__.split("usage: ", 1)[1])
+    parser.add_argument("--require", nargs="+", default=[], metavar="NAME")
+    parser.add_argument("--check", action="store_true")
+    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build")
+    parser.add_argument("--readme", type=pathlib.Path, default=ROOT / "README.md")
+    args = parser.parse_args()
+    figures = collect(args.build / "figures")
+    out = args.build / "figures.json"
+    out.parent.mkdir(parents=True, exist_ok=True)
+    out.write_text(json.dumps(figures, indent=2) + "\n")
+    print(f"{out}: {len(figures)} figures")
+    if missing := [name for name in args.require if not fnmatch.filter(figures, name)]:
+        fail(f"missing: {', '.join(missing)}")
+    if not args.readme.exists():
+        return
+    text = args.readme.read_text()
+    filled, changed = fill(text, figures)
+    if changed and args.check:
+        fail(f"{args.readme}: stale: {', '.join(changed)} (scripts/figures.py writes them)")
+    if changed:
+        args.readme.write_text(filled)
+    print(f"{args.readme}: {', '.join(changed) + ' written' if changed else 'tables up to date'}")
+
+
+if __name__ == "__main__":
+    main()

@@ -51,13 +51,13 @@ lint: configure ## formatters, linters and generated files
 	@scripts/lint.sh $(BUILD)
 
 netlist: setup ## LUT, FF and DSP48 counts of the units from Yosys (estimates)
-	@scripts/netlist.py --check
+	@scripts/netlist.py --check --build $(BUILD)
 
 figures: ## makes what is missing and collects build/figures.json and README's tables
 	@[ -f $(BUILD)/figures/render.json ] || $(MAKE) render
 	@[ -f $(BUILD)/figures/netlist.json ] || $(MAKE) netlist
 	@[ -f $(BUILD)/figures/stages.fp_add.json ] && [ -f $(BUILD)/figures/radius.json ] || $(MAKE) sim
-	@scripts/figures.py
+	@scripts/figures.py --build $(BUILD)
 
 trace: configure ## traces of UNIT's bench and of its model, compared: build/traces
 	@[ -n "$(UNIT)" ] || { echo "make trace UNIT=fp_add [PRIM=xc4v] [SIM=ghdl]"; exit 2; }

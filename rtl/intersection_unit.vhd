@@ -159,19 +159,15 @@ begin
   origin <= pencil.ox & pencil.oy & pencil.oz;
 
   last_set_p : process (pencil)
-    variable row_sets_v    : natural range 0 to MAX_ROWS - 1;
-    variable column_sets_v : natural range 0 to MAX_COLUMNS - 1;
-    variable row_v         : unsigned(LINE_BITS downto 0);
-    variable column_v      : unsigned(LINE_BITS downto 0);
+    variable row_set_v    : unsigned(LINE_BITS downto 0);
+    variable column_set_v : unsigned(LINE_BITS downto 0);
   begin
-    row_v         := unsigned(pencil.rows) - 1;
-    column_v      := unsigned(pencil.columns) - 1;
-    row_sets_v    := to_integer(row_v(LINE_BITS - 1 downto 0)) / NUM_ROWS;
-    column_sets_v := to_integer(column_v(LINE_BITS - 1 downto 0)) / NUM_COLUMNS;
-    if row_sets_v > column_sets_v then
-      last_set <= std_ulogic_vector(to_unsigned(row_sets_v, LINE_BITS));
+    row_set_v    := (unsigned(pencil.rows) - 1) / NUM_ROWS;
+    column_set_v := (unsigned(pencil.columns) - 1) / NUM_COLUMNS;
+    if row_set_v > column_set_v then
+      last_set <= std_ulogic_vector(row_set_v(LINE_BITS - 1 downto 0));
     else
-      last_set <= std_ulogic_vector(to_unsigned(column_sets_v, LINE_BITS));
+      last_set <= std_ulogic_vector(column_set_v(LINE_BITS - 1 downto 0));
     end if;
   end process last_set_p;
 

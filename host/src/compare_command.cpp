@@ -67,14 +67,20 @@ double rate(std::uint64_t count, double seconds) {
   return seconds > 0 ? static_cast<double>(count) / seconds : 0;
 }
 
+/// Clocks a second of simulation: all that an RTL device simulates, or the cycles that a model counts.
+double simulated_rate(const DeviceRun& run) {
+  const std::uint64_t clocks = run.simulated_clocks != 0 ? run.simulated_clocks : run.cycles();
+  return rate(clocks, run.rendering.stats.trace_seconds);
+}
+
 void print_table(const std::vector<Entry>& entries, const Entry& reference) {
   fmt::print("{:<12}{:>12}{:>14}{:>13}{:>14}{:>14}{:>14}\n", "device", "rays", "cycles", "rays/cycle",
              "cycles/s", "pixels off", "off > 2");
   for (const Entry& e : entries) {
     const double rays_per_cycle = rate(e.run.rays(), static_cast<double>(e.run.cycles()));
     fmt::print("{:<12}{:>12}{:>14}{:>13.4f}{:>14.0f}{:>14}{:>14}\n", e.name, e.run.rays(), e.run.cycles(),
-               rays_per_cycle, rate(e.run.cycles(), e.run.rendering.stats.trace_seconds),
-               pixels_off(e.picture, reference.picture, 0), pixels_off(e.picture, reference.picture, 2));
+               rays_per_cycle, simulated_rate(e.run), pixels_off(e.picture, reference.picture, 0),
+               pixels_off(e.picture, reference.picture, 2));
   }
   fmt::print("\n{:<18}", "counter");
   for (const Entry& e : entries) {
@@ -142,11 +148,16 @@ int run(const CompareCommand& command) {
     fmt::print("\nmodel against rtl: not compared, this build has no Verilator model\n");
   }
   figure("render.hits_compared", kWithRtl ? last.hits.size() : 0, "hits");
-  figure("render.pixels_off_reference", pixels_off(last.picture, reference.picture, 2), "pixels");
-  figure("render.pixels_differing_reference", pixels_off(last.picture, reference.picture, 0), "pixels");
+  figure("render.pixels_off_reference", pixels_off(last.picture, reference.picture, 0), "pixels");
+  figure("render.pixels_off_reference_over_2_levels", pixels_off(last.picture, reference.picture, 2),
+         "pixels");
+  figure("render.cycles", last.run.cycles(), "cycles");
+  figure("render.rays", last.run.rays(), "rays");
+  figure("render.rays_per_cycle", rate(last.run.rays(), static_cast<double>(last.run.cycles())),
+         "rays/cycle");
   figure("render.pixels", last.picture.size() / 3, "pixels");
-  figure(kWithRtl ? "sim.cycles_per_second" : "model.cycles_per_second",
-         rate(last.run.cycles(), last.run.rendering.stats.trace_seconds), "cycles/s");
+  figure(kWithRtl ? "sim.cycles_per_second" : "model.cycles_per_second", simulated_rate(last.run),
+         "cycles/s");
   if (json) {
     json->write(figures.dump(2) + "\n");
     json->commit();

@@ -35,7 +35,7 @@ class RtlDevice final : public IntersectionDevice {
     }
     write(Target::scene, 0, memory.scene.pack());
     counters_ = {};
-    clocks_ = 0;
+    clocks_ = 0;  // from here on: trace() is what is timed
   }
 
   std::vector<Hit> trace(const Pencil& pencil) override {

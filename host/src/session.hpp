@@ -35,7 +35,8 @@ struct Prepared {
 struct DeviceRun {
   Rendering rendering;
   Counters counters{};
-  double seconds = 0;  ///< of load and render
+  double seconds = 0;                  ///< of load and render
+  std::uint64_t simulated_clocks = 0;  ///< IntersectionDevice::simulated_clocks()
 
   [[nodiscard]] std::uint64_t cycles() const { return counters[static_cast<std::size_t>(Counter::cycles)]; }
   [[nodiscard]] std::uint64_t rays() const {

@@ -38,25 +38,27 @@ begin
   read <= bank_i & set_i;
 
   write_p : process (write_i, write_address_i)
-    variable number_v : natural range 0 to MAX_ROWS - 1;
-    variable tester_v : natural range 0 to MAX_ROWS + MAX_COLUMNS - 1;
-    variable set_v    : natural range 0 to MAX_ROWS - 1;
+    variable number_v : unsigned(LINE_BITS - 1 downto 0);
+    variable set_v    : unsigned(LINE_BITS - 1 downto 0);
   begin
-    number_v := to_integer(unsigned(write_address_i(LINE_BITS - 1 downto 0)));
+    number_v := unsigned(write_address_i(LINE_BITS - 1 downto 0));
+    write    <= (others => '0');
     if write_address_i(LINE_BITS) = '1' then
-      tester_v := NUM_ROWS + number_v mod NUM_COLUMNS;
-      set_v    := number_v / NUM_COLUMNS;
+      set_v := number_v / NUM_COLUMNS;
+      for k in 0 to NUM_COLUMNS - 1 loop
+        if number_v mod NUM_COLUMNS = k then
+          write(NUM_ROWS + k) <= write_i;
+        end if;
+      end loop;
     else
-      tester_v := number_v mod NUM_ROWS;
-      set_v    := number_v / NUM_ROWS;
+      set_v := number_v / NUM_ROWS;
+      for k in 0 to NUM_ROWS - 1 loop
+        if number_v mod NUM_ROWS = k then
+          write(k) <= write_i;
+        end if;
+      end loop;
     end if;
-    for k in write'range loop
-      write(k) <= '0';
-      if tester_v = k then
-        write(k) <= write_i;
-      end if;
-    end loop;
-    address <= write_address_i(LINE_BITS + 1) & std_ulogic_vector(to_unsigned(set_v, LINE_BITS));
+    address <= write_address_i(LINE_BITS + 1) & std_ulogic_vector(set_v);
   end process write_p;
 
   testers_g : for k in 0 to NUM_ROWS + NUM_COLUMNS - 1 generate

@@ -89,7 +89,7 @@ class IntersectionDevice {
   /// Counts since load().
   [[nodiscard]] virtual Counters counters() const = 0;
 
-  /// Clocks simulated since load(), loading pencils and reading results included; 0 if nothing is simulated.
+  /// Clocks simulated by trace(), pencils written and results read included; 0 if nothing is simulated.
   [[nodiscard]] virtual std::uint64_t simulated_clocks() const { return 0; }
 };
 

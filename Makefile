@@ -9,6 +9,8 @@ SCENE ?= scenes/cornell_teapot.json
 PROFILE ?= paper
 SIZE ?= 128
 UNIT ?=
+# the README's figures are those of the default picture
+RENDER_JSON = $(BUILD)/$(if $(filter scenes/cornell_teapot.json-paper-128,$(SCENE)-$(PROFILE)-$(SIZE)),figures,render)/render.json
 PRIM ?= generic
 SIM ?= verilator
 
@@ -29,9 +31,10 @@ build: configure ## the host with the devices reference, model and rtl
 	@ninja -C $(BUILD) -j $(JOBS) raplas
 
 render: build ## renders SCENE on all devices and compares them: pictures in build/render
-	@mkdir -p $(BUILD)/figures
+	@mkdir -p $(dir $(RENDER_JSON))
 	$(BUILD)/host/raplas compare $(SCENE) --profile $(PROFILE) --width $(SIZE) --height $(SIZE) \
-	  -o $(BUILD)/render --json $(BUILD)/figures/render.json
+	  -o $(BUILD)/render --json $(RENDER_JSON)
+	@echo "pictures: $(BUILD)/render/rtl.png model.png reference.png"
 
 model: configure ## builds and tests the golden model and the host without the RTL, with sanitizers
 	@cmake -S . -B $(BUILD)/model -G Ninja -DRAPLAS_WITH_RTL=OFF -DRAPLAS_SANITIZE=ON > /dev/null

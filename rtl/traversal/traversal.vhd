@@ -31,7 +31,7 @@ entity traversal is
     push_first_i  : in  std_ulogic_vector(ID_BITS - 1 downto 0);
     push_count_i  : in  std_ulogic_vector(COUNT_BITS - 1 downto 0);   -- 1 .. 127
     decided_i     : in  std_ulogic;                                   -- a sphere leaves the testers
-    leaves_i      : in  std_ulogic_vector(LEAF_FIFO_DEPTH_LOG2 downto 0);  -- words in the leaf queue
+    leaves_i      : in  std_ulogic_vector(LEAF_FIFO_DEPTH_LOG2 downto 0);  -- leaf queue: words
     request_o     : out std_ulogic;                                   -- address and set are valid
     first_o       : out std_ulogic;                                   -- first set of this sphere
     last_o        : out std_ulogic;                                   -- last set of this sphere
@@ -73,6 +73,7 @@ begin
                     push_count_i, decided_i, leaves_i, top)
     variable v         : reg_t;
     variable request_v : std_ulogic;
+    variable leaves_v  : tested_t;
     variable ending_v  : boolean;
     variable free_v    : boolean;
     variable relaxed_v : boolean;
@@ -82,7 +83,8 @@ begin
 
     -- the sphere in front: its first set waits for room, the others follow at once
     request_v := r.active;
-    if r.set = 0 and r.under_test + resize(unsigned(leaves_i), tested_t'length) >= LEAF_FIFO_DEPTH then
+    leaves_v  := resize(unsigned(leaves_i), tested_t'length);
+    if r.set = 0 and r.under_test + leaves_v >= LEAF_FIFO_DEPTH then
       request_v := '0';
     end if;
     ending_v := false;

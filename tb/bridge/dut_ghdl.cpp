@@ -85,6 +85,7 @@ void Simulation::main() {
   std::vector<std::string> arguments{"bench", "--ieee-asserts=disable", "--assert-level=error"};
   if (!wave_file.empty()) arguments.push_back("--wave=" + wave_file);
   std::vector<char*> argv;
+  argv.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);
   ghdl_main(static_cast<int>(arguments.size()), argv.data());

@@ -33,7 +33,7 @@ std::string trace_hex(std::span<const std::uint32_t> words, std::span<const std:
   return text;
 }
 
-TraceWriter::TraceWriter(const std::string& path, std::string unit, std::vector<TraceField> fields)
+TraceWriter::TraceWriter(const std::string& path, const std::string& unit, std::vector<TraceField> fields)
     : fields_(std::move(fields)), file_(path) {
   file_ << "# unit " << unit << " clock";
   for (const TraceField& field : fields_) {

@@ -33,7 +33,7 @@ struct TraceField {
 class TraceWriter {
  public:
   /// Opens the file and writes the header; stops the program when that fails.
-  TraceWriter(const std::string& path, std::string unit, std::vector<TraceField> fields);
+  TraceWriter(const std::string& path, const std::string& unit, std::vector<TraceField> fields);
 
   /// Writes one clock: a hexadecimal text for each field (trace_hex, or x digits for "any value").
   void line(std::uint64_t clock, std::span<const std::string> values);

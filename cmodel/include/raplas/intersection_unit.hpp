@@ -241,7 +241,8 @@ class IntersectionUnit {
     const auto flags = [&](const auto& planes, int testers, std::uint32_t lines) {
       std::uint32_t bits = 0;
       for (int k = 0; k < testers; ++k) {
-        const auto line = static_cast<std::size_t>(request.set * testers + k);
+        const auto line = static_cast<std::size_t>(request.set) * static_cast<std::size_t>(testers) +
+                          static_cast<std::size_t>(k);
         if (line < lines && plane_meets_sphere(planes[line], sphere.centre, sphere.radius)) {
           bits |= 1U << k;
         }

@@ -14,7 +14,7 @@ RENDER_JSON = $(BUILD)/$(if $(filter scenes/cornell_teapot.json-paper-128,$(SCEN
 PRIM ?= generic
 SIM ?= verilator
 
-.PHONY: help setup configure build render model sim test lint netlist figures trace waves scenes clean
+.PHONY: help setup configure build render model sim test lint netlist figures trace waves scenes soak clean
 
 help: ## this list
 	@echo "RAPLAS: ray tracing by planes and bounding spheres, in VHDL, a golden model, and a host"
@@ -79,6 +79,10 @@ waves: configure ## all signals of UNIT's bench for GTKWave: build/waves/UNIT.gh
 
 scenes: setup ## fetches the Stanford bunny and dragon and a small bunny: build/scenes
 	@scripts/fetch_scenes.sh
+
+soak: build scenes ## real meshes on all devices: small pictures of bunny and dragon, RTL against model
+	@for mesh in bunny_3k bunny_69k dragon_47k; do \
+	  $(MAKE) --no-print-directory render SCENE=$$(ls $(BUILD)/scenes/$$mesh.*) PROFILE=raplas SIZE=64; done
 
 clean: ## removes build
 	rm -rf $(BUILD)

@@ -9,6 +9,28 @@
 namespace raplas {
 namespace {
 
+// stages of the spheres count from request_o, those of the pairs from issue_o
+constexpr int kDecisionStage = kMemoryStages + kTesterStages + 1;
+constexpr int kPairStage = kMemoryStages + kRayTriangleStages;
+const PortStage kStages[]{{"request_o", 0},
+                          {"sphere_o", 0},
+                          {"set_o", 0},
+                          {"decided_o", kDecisionStage},
+                          {"leaf_o", kDecisionStage},
+                          {"push_o", kDecisionStage},
+                          {"row_mask_o", kDecisionStage},
+                          {"column_mask_o", kDecisionStage},
+                          {"issue_o", 0},
+                          {"stall_o", 0},
+                          {"ray_o", 0},
+                          {"triangle_o", 0},
+                          {"pair_done_o", kPairStage},
+                          {"hit_o", kPairStage},
+                          {"stored_o", kPairStage},
+                          {"stored_ray_o", kPairStage},
+                          {"stored_result_o", kPairStage},
+                          {"result_o", kMemoryStages}};
+
 using F = std::conditional_t<GUARD_BITS == 0, Fp24Paper, Fp24>;
 const std::uint32_t kPencils = Dut::simulator() == "ghdl" ? 3 : 40;
 

@@ -8,6 +8,7 @@ namespace {
 
 constexpr int kClocks = 20'000;
 constexpr std::size_t kDepth = 16;
+const PortStage kStages[]{{"data_o", 1}, {"valid_o", 1}, {"ready_o", 1}, {"count_o", 1}};
 
 class FifoBench : public testing::Test {
  protected:

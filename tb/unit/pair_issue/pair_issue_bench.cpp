@@ -8,6 +8,7 @@ namespace raplas {
 namespace {
 
 constexpr int kClocks = 20'000;
+const PortStage kStages[]{{"issue_o", 0}, {"stall_o", 0}};
 
 class PairIssueBench : public testing::Test {
  protected:

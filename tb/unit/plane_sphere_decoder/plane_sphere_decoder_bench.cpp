@@ -10,7 +10,8 @@ namespace raplas {
 namespace {
 
 constexpr int kSpheresPerSize = 20;
-const PortStage kDecidedStage{"decided_o", 1};
+const PortStage kStages[]{
+    {"decided_o", 1}, {"leaf_o", 1}, {"push_o", 1}, {"row_mask_o", 1}, {"column_mask_o", 1}};
 
 class Decoder : public testing::Test {
  protected:

@@ -8,6 +8,7 @@ namespace raplas {
 namespace {
 
 constexpr int kLeaves = 600;
+const PortStage kStages[]{{"valid_o", 1}, {"ray_o", 1}, {"triangle_o", 1}, {"ready_o", 0}};
 
 std::vector<Pair> pairs_of(const Leaf& leaf) {
   std::vector<Pair> pairs;

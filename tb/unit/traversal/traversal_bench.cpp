@@ -9,6 +9,8 @@
 namespace raplas {
 namespace {
 
+const PortStage kStages[]{{"request_o", 0}, {"address_o", 0}, {"set_o", 0}, {"first_o", 0}, {"last_o", 0}};
+
 struct Node {
   bool inner = false;
   std::uint32_t first = 0;

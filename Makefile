@@ -41,7 +41,7 @@ model: configure ## builds and tests the golden model and the host without the R
 	@ninja -C $(BUILD)/model -j $(JOBS)
 	ctest --test-dir $(BUILD)/model -j $(JOBS) --output-on-failure -LE long
 
-sim: configure lint ## the whole regression: lint, model, host, every unit on Verilator and GHDL
+sim: lint ## the whole regression: lint, model, host, every unit on Verilator and GHDL
 	@ninja -C $(BUILD) -j $(JOBS)
 	ctest --test-dir $(BUILD) -j $(JOBS) --output-on-failure
 
@@ -50,7 +50,7 @@ test: configure ## only the tests of UNIT
 	@ninja -C $(BUILD) -j $(JOBS) $(UNIT)
 	ctest --test-dir $(BUILD) -j $(JOBS) --output-on-failure -R '^$(UNIT)\.'
 
-lint: configure ## formatters, linters and generated files
+lint: build ## formatters, linters and generated files
 	@scripts/lint.sh $(BUILD)
 
 netlist: setup ## LUT, FF and DSP48 counts of the units from Yosys (estimates)

@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # Formatters, linters and generated files; exit 1 at the first that complains.
 #
-# usage: scripts/lint.sh BUILD    BUILD: a configured build folder, for its compile_commands.json
+# usage: scripts/lint.sh BUILD    BUILD: a folder with the host built, for its compile_commands.json
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build=${1:?usage: scripts/lint.sh BUILD}
 
 mapfile -t cpp < <(git ls-files -- '*.cpp' '*.hpp' ':!:cmodel/include/raplas/constants.hpp')
-mapfile -t sources < <(git ls-files -- 'host/src/*.cpp' 'tb/bridge/*.cpp' 'tb/trace/*.cpp')
+# the bridge's backends are left out: their port tables exist only inside a bench's build
+mapfile -t sources < <(git ls-files -- 'host/src/*.cpp' 'tb/bridge/*.cpp' 'tb/trace/*.cpp' ':!:tb/bridge/dut_*.cpp')
 mapfile -t vhdl < <(git ls-files -- 'rtl/*.vhd' 'tb/*.vhd' ':!:tb/broken')
 
 echo "lint: generated files"
@@ -43,14 +44,14 @@ for prim in generic xc4v; do
 done
 
 echo "lint: clang-tidy, ${#sources[@]} files"
-# the bridge is compiled once for each bench: one of its commands is enough
+# a file that several targets compile is checked once
 python3 - "$build/compile_commands.json" "$work/compile_commands.json" <<'PYTHON'
 import json, sys
 commands = {command["file"]: command for command in json.load(open(sys.argv[1]))}
 json.dump(list(commands.values()), open(sys.argv[2], "w"))
 PYTHON
 printf '%s\n' "${sources[@]}" | xargs -P "$(nproc)" -n 2 clang-tidy --quiet -p "$work" 2>"$work/tidy" || {
-  cat "$work/tidy" >&2
+  grep -v 'warnings generated' "$work/tidy" >&2
   exit 1
 }
 echo "lint: clean"

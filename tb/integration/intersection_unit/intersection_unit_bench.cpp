@@ -1,8 +1,8 @@
 // The whole unit against its clocked model, every edge between the units on every clock, and against the
 // value-exact walk at the end of each pencil. Random scenes and pencils. GUARD_BITS is the unit's generic.
-#include <cmath>
-#include <random>
+#include <algorithm>
 
+#include "random_scenes.hpp"
 #include "raplas/intersection_unit.hpp"
 #include "support/scoreboard.hpp"
 
@@ -33,89 +33,6 @@ const PortStage kStages[]{{"request_o", 0},
 
 using F = std::conditional_t<GUARD_BITS == 0, Fp24Paper, Fp24>;
 const std::uint32_t kPencils = Dut::simulator() == "ghdl" ? 3 : 40;
-
-/// Scenes of small triangles in the unit cube, and pencils that look into it.
-class Scenes {
- public:
-  explicit Scenes(std::uint32_t seed) : random_(seed) {}
-
-  /// A tree of `depth` levels of inner nodes, up to 4 children each, over random triangles; depth 0: a flat
-  /// list.
-  SceneMemory<F> scene(int depth, std::uint32_t root_nodes) {
-    SceneMemory<F> memory;
-    memory.spheres.resize(root_nodes);
-    std::size_t begin = 0;
-    for (int level = 0; level <= depth; ++level) {
-      const std::size_t end = memory.spheres.size();
-      for (std::size_t k = begin; k < end; ++k) {
-        const double radius = level == depth ? 0.15 : 0.5;
-        SphereWord<F> node{point(), F::from_double(radius * real(0.3, 1)),
-                           level == depth || random_() % 5 == 0, 0, 0};
-        node.count = 1 + static_cast<std::uint32_t>(random_() % 4);
-        if (node.leaf) {
-          node.first = static_cast<std::uint32_t>(memory.triangles.size());
-          for (std::uint32_t t = 0; t < node.count; ++t) {
-            memory.triangles.push_back(triangle(node.centre));
-          }
-        } else {
-          node.first = static_cast<std::uint32_t>(memory.spheres.size());
-          memory.spheres.resize(memory.spheres.size() + node.count);
-        }
-        memory.spheres[k] = node;
-      }
-      begin = end;
-    }
-    memory.scene = {static_cast<std::uint32_t>(memory.spheres.size()), root_nodes, 0};
-    return memory;
-  }
-
-  PencilMemory<F> pencil(std::uint32_t rows, std::uint32_t columns) {
-    PencilMemory<F> memory;
-    const double ox = real(-0.2, 0.2);
-    const double oy = real(-0.2, 0.2);
-    const double oz = -2;
-    const double width = real(0.02, 0.8);
-    memory.pencil = {rows, columns, {F::from_double(ox), F::from_double(oy), F::from_double(oz)}};
-    const auto at = [width](std::uint32_t k, std::uint32_t count) {
-      return width * ((k + 0.5) / count - 0.5);
-    };
-    for (std::uint32_t r = 0; r < rows; ++r) {  // the plane y = at(r) * z through O
-      const double length = std::hypot(1, at(r, rows));
-      memory.rows[r] = {{F(), F::from_double(1 / length), F::from_double(-at(r, rows) / length)},
-                        F::from_double((-oy + at(r, rows) * oz) / length)};
-      for (std::uint32_t c = 0; c < columns; ++c) {
-        const double x = at(c, columns);
-        const double y = at(r, rows);
-        const double norm = std::sqrt(x * x + y * y + 1);
-        memory.rays[r * kMaxColumns + c] = {F::from_double(x / norm), F::from_double(y / norm),
-                                            F::from_double(1 / norm)};
-      }
-    }
-    for (std::uint32_t c = 0; c < columns; ++c) {
-      const double length = std::hypot(1, at(c, columns));
-      memory.columns[c] = {{F::from_double(1 / length), F(), F::from_double(-at(c, columns) / length)},
-                           F::from_double((-ox + at(c, columns) * oz) / length)};
-    }
-    return memory;
-  }
-
-  std::uint32_t below(std::uint32_t limit) { return static_cast<std::uint32_t>(random_() % limit); }
-
- private:
-  double real(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
-  Vec3<F> point() { return vector(-0.5, 0.5); }
-  Vec3<F> vector(double low, double high) {
-    return {F::from_double(real(low, high)), F::from_double(real(low, high)),
-            F::from_double(real(low, high))};
-  }
-  TriangleWord<F> triangle(const Vec3<F>& centre) {
-    TriangleWord<F> t{centre - vector(-0.1, 0.1), vector(-0.2, 0.2), vector(-0.2, 0.2), {}};
-    t.n = cross(t.e1, t.e2);
-    return t;
-  }
-
-  std::mt19937 random_;
-};
 
 class IntersectionUnitBench : public testing::Test {
  protected:
@@ -252,7 +169,7 @@ class IntersectionUnitBench : public testing::Test {
 };
 
 TEST_F(IntersectionUnitBench, TracesAPencilOfEverySizeThroughATree) {
-  Scenes scenes(121);
+  Scenes<F> scenes(121);
   const SceneMemory<F> scene = scenes.scene(3, 3);
   load(scene);
   for (std::uint32_t k = 0; k < kPencils; ++k) {
@@ -270,7 +187,7 @@ TEST_F(IntersectionUnitBench, TracesAPencilOfEverySizeThroughATree) {
 }
 
 TEST_F(IntersectionUnitBench, TracesTheFlatListOfThePaper) {
-  Scenes scenes(122);
+  Scenes<F> scenes(122);
   for (std::uint32_t k = 0; k < kPencils; ++k) {
     const SceneMemory<F> scene = scenes.scene(0, 20 + scenes.below(60));
     load(scene);
@@ -283,7 +200,7 @@ TEST_F(IntersectionUnitBench, TracesTheFlatListOfThePaper) {
 }
 
 TEST_F(IntersectionUnitBench, EndsAPencilOfAnEmptySceneWithItsHitsCleared) {
-  Scenes scenes(124);
+  Scenes<F> scenes(124);
   const SceneMemory<F> full = scenes.scene(0, 30);
   const PencilMemory<F> pencil = scenes.pencil(4, 4);
   load(full);
@@ -299,7 +216,7 @@ TEST_F(IntersectionUnitBench, EndsAPencilOfAnEmptySceneWithItsHitsCleared) {
 }
 
 TEST_F(IntersectionUnitBench, LoadsTheOtherBankWhileAPencilRuns) {
-  Scenes scenes(123);
+  Scenes<F> scenes(123);
   const SceneMemory<F> scene = scenes.scene(2, 4);
   load(scene);
   const std::array<PencilMemory<F>, 2> pencils{scenes.pencil(8, 8), scenes.pencil(5, 16)};

@@ -21,11 +21,11 @@ use raplas.raplas_constants.all;
 
 entity intersection_unit is
   generic (
-    NUM_ROWS              : positive := 4;    -- row testers: a power of two, at most MAX_ROWS
-    NUM_COLUMNS           : positive := 4;    -- column testers: likewise
+    NUM_ROWS              : positive range 1 to MAX_ROWS := 4;     -- row testers: a power of two
+    NUM_COLUMNS           : positive range 1 to MAX_COLUMNS := 4;  -- column testers: likewise
     GUARD_BITS            : natural range 0 to 2 := 2;
-    SPHERE_ADDRESS_BITS   : positive := 12;   -- 2**12 spheres
-    TRIANGLE_ADDRESS_BITS : positive := 12    -- 2**12 triangles
+    SPHERE_ADDRESS_BITS   : positive range 1 to ID_BITS := 12;   -- 2**12 spheres
+    TRIANGLE_ADDRESS_BITS : positive range 1 to ID_BITS := 12    -- 2**12 triangles
   );
   port (
     clk_i           : in  std_ulogic;

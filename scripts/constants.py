@@ -141,9 +141,25 @@ def markdown():
     return "\n".join(out) + "\n"
 
 
+def check():
+    """Relations that the RTL relies on."""
+    c = CONSTANTS
+    rules = (
+        ("MAX_ROWS = MAX_COLUMNS = 2^LINE_BITS", c["MAX_ROWS"] == c["MAX_COLUMNS"] == 2 ** c["LINE_BITS"]),
+        ("FP_BITS = 1 + EXPONENT_BITS + FRACTION_BITS",
+         c["FP_BITS"] == 1 + c["EXPONENT_BITS"] + c["FRACTION_BITS"]),
+        ("EXPONENT_BIAS = 2^(EXPONENT_BITS - 1) - 1", c["EXPONENT_BIAS"] == 2 ** (c["EXPONENT_BITS"] - 1) - 1),
+    ) + tuple((f"{d} = 2^{d}_LOG2", c[d] == 2 ** c[d + "_LOG2"])
+              for d in ("STACK_DEPTH", "LEAF_FIFO_DEPTH", "PAIR_FIFO_DEPTH"))
+    for rule, holds in rules:
+        if not holds:
+            sys.exit(f"constants: raplas.toml breaks {rule}")
+
+
 def main():
-    check = sys.argv[1:] == ["--check"]
-    if sys.argv[1:] and not check:
+    check()
+    only_check = sys.argv[1:] == ["--check"]
+    if sys.argv[1:] and not only_check:
         sys.exit(__doc__)
     stale = []
     for path, text in (("rtl/common/raplas_constants.vhd", vhdl()),
@@ -153,10 +169,10 @@ def main():
         if file.exists() and file.read_text() == text:
             continue
         stale.append(path)
-        if not check:
+        if not only_check:
             file.write_text(text)
             print(f"wrote {path}")
-    if check and stale:
+    if only_check and stale:
         sys.exit(f"constants: {', '.join(stale)} differ from raplas.toml: run scripts/constants.py")
 
 

@@ -14,7 +14,7 @@ synthesised by yosys synth_xilinx -family xc4v. The figures go into DIR/figures/
                       only; what ISE's MAP reports is higher
 Yosys infers no SRL16 for this family, so every delay counts in flip-flops.
 
---unit    only these; without it all but intersection_unit, which takes Yosys some minutes
+--unit    only these; without it all; intersection_unit takes Yosys some minutes
 --count   flattens only: DSP48 and latches of all units in seconds, no figures written
 --check   exits 1 unless the DSP48 counts are those of the documents
 --fresh   ignores the results kept for an unchanged export
@@ -40,7 +40,6 @@ DSP48 = {
     "ray_triangle": 70,
     "intersection_unit": 166,
 }
-SLOW = ("intersection_unit",)
 PAPER = {  # slices and DSP48 that ISE 8.2 reported
     "plane_sphere_subunit": (8248, 96),
     "ray_triangle": (5282, 70),
@@ -160,7 +159,7 @@ def main():
     args = parser.parse_args()
     version = yosys_version()
     counts, results = {}, {}
-    for unit in args.unit or [u for u in DSP48 if args.count or u not in SLOW]:
+    for unit in args.unit or DSP48:
         folder = args.build / "netlist" / unit
         verilog = export(unit, folder)
         name, passes = ("count", CELL_TYPES + FLATTENING) if args.count else ("synthesis", SYNTHESIS)

@@ -30,7 +30,7 @@ void compare_with_the_walk(Testers testers, std::uint32_t seed) {
   IntersectionUnit<F> unit(testers);
   std::uint64_t hits = 0;
   for (int k = 0; k < kPencils; ++k) {
-    const SceneMemory<F> scene = scenes.scene(k % 4, 1 + scenes.below(6));
+    const SceneMemory<F> scene = scenes.scene(k % 4, 1 + scenes.below(6), scenes.below(3000));
     const auto bank = static_cast<std::size_t>(k % 2);
     const PencilMemory<F> pencil = scenes.pencil(1 + scenes.below(16), 1 + scenes.below(16));
     unit.load(&scene);

@@ -18,17 +18,19 @@ class Scenes {
 
   /// A tree of `depth` levels of inner nodes, up to 4 children each, over random triangles; depth 0: a flat
   /// list.
-  SceneMemory<F> scene(int depth, std::uint32_t root_nodes) {
+  /// Spheres and triangles start at address `first`.
+  SceneMemory<F> scene(int depth, std::uint32_t root_nodes, std::uint32_t first = 0) {
     SceneMemory<F> memory;
-    memory.spheres.resize(root_nodes);
-    std::size_t begin = 0;
+    memory.spheres.resize(first + root_nodes);
+    memory.triangles.resize(first);
+    std::size_t begin = first;
     for (int level = 0; level <= depth; ++level) {
       const std::size_t end = memory.spheres.size();
       for (std::size_t k = begin; k < end; ++k) {
         const double radius = level == depth ? 0.15 : 0.5;
         SphereWord<F> node{point(), F::from_double(radius * real(0.3, 1)),
                            level == depth || random_() % 5 == 0, 0, 0};
-        node.count = 1 + static_cast<std::uint32_t>(random_() % 4);
+        node.count = node.leaf && random_() % 32 == 0 ? 127 : 1 + static_cast<std::uint32_t>(random_() % 4);
         if (node.leaf) {
           node.first = static_cast<std::uint32_t>(memory.triangles.size());
           for (std::uint32_t t = 0; t < node.count; ++t) {
@@ -42,7 +44,7 @@ class Scenes {
       }
       begin = end;
     }
-    memory.scene = {static_cast<std::uint32_t>(memory.spheres.size()), root_nodes, 0};
+    memory.scene = {static_cast<std::uint32_t>(memory.spheres.size()), root_nodes, first};
     return memory;
   }
 

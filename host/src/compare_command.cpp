@@ -124,7 +124,9 @@ int run(const CompareCommand& command) {
   for (std::size_t k = 0; k < names.size(); ++k) {
     entries.push_back(trace(command, prepared, names[k]));
     write_png(entries[k].run.rendering.image, *pictures[k]);
-    pictures[k]->commit();
+  }
+  for (const auto& picture : pictures) {
+    picture->commit();
   }
   const Entry& reference = entries[0];
   const Entry& model = entries[1];

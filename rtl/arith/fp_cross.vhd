@@ -25,10 +25,10 @@ end entity fp_cross;
 
 architecture rtl of fp_cross is
   type vector_t is array (0 to 2) of fp24_t;
-  signal a        : vector_t;
-  signal b        : vector_t;
-  signal positive : vector_t;
-  signal negative : vector_t;
+  signal a             : vector_t;
+  signal b             : vector_t;
+  signal left_product  : vector_t;
+  signal right_product : vector_t;
 begin
 
   components_g : for k in 0 to 2 generate
@@ -40,7 +40,7 @@ begin
         clk_i     => clk_i,
         a_i       => a((k + 1) mod 3),
         b_i       => b((k + 2) mod 3),
-        product_o => positive(k)
+        product_o => left_product(k)
       );
 
     negative_i : entity raplas.fp_mul
@@ -48,15 +48,15 @@ begin
         clk_i     => clk_i,
         a_i       => a((k + 2) mod 3),
         b_i       => b((k + 1) mod 3),
-        product_o => negative(k)
+        product_o => right_product(k)
       );
 
     difference_i : entity raplas.fp_add
       generic map (GUARD_BITS => GUARD_BITS, SUBTRACT => true)
       port map (
         clk_i => clk_i,
-        a_i   => positive(k),
-        b_i   => negative(k),
+        a_i   => left_product(k),
+        b_i   => right_product(k),
         sum_o => cross_o((3 - k) * FP_BITS - 1 downto (2 - k) * FP_BITS)
       );
   end generate components_g;

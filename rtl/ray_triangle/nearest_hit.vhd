@@ -41,7 +41,8 @@ architecture rtl of nearest_hit is
   signal side_s2       : std_ulogic_vector(1 downto 0);          -- best.hit, lower ID
 
   -- one signed number that orders products of non-zero factors
-  function ordered(exponent : std_ulogic_vector; significand : std_ulogic_vector(TOP downto 0))
+  function ordered(exponent    : std_ulogic_vector(EXPONENT_BITS + 1 downto 0);
+                   significand : std_ulogic_vector(TOP downto 0))
     return exact_t is
     variable exponent_v : signed(EXPONENT_BITS + 1 downto 0);
   begin

@@ -81,6 +81,8 @@ class PairIssue {
  public:
   static constexpr std::size_t kHazardClocks = kMemoryStages + kMulStages + 1;
 
+  PairIssue() noexcept { history_.fill(kNoRay); }
+
   /// The pair of this ray is held back in this clock.
   [[nodiscard]] bool blocked(std::uint32_t ray) const noexcept {
     for (const auto recent : history_) {
@@ -99,7 +101,7 @@ class PairIssue {
  private:
   static constexpr std::uint32_t kNoRay = ~std::uint32_t{0};
 
-  std::array<std::uint32_t, kHazardClocks - 1> history_{kNoRay, kNoRay, kNoRay, kNoRay, kNoRay};
+  std::array<std::uint32_t, kHazardClocks - 1> history_;
   std::size_t next_ = 0;
 };
 

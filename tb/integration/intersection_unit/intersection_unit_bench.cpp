@@ -1,6 +1,8 @@
 // The whole unit against its clocked model, every edge between the units on every clock, and against the
-// value-exact walk at the end of each pencil. Random scenes and pencils. GUARD_BITS is the unit's generic.
+// value-exact walk at the end of each pencil. Random scenes and pencils. GUARD_BITS, ROWS and COLUMNS are its
+// generics.
 #include <algorithm>
+#include <random>
 
 #include "random_scenes.hpp"
 #include "raplas/intersection_unit.hpp"
@@ -32,6 +34,7 @@ const PortStage kStages[]{{"request_o", 0},
                           {"result_o", kMemoryStages}};
 
 using F = std::conditional_t<GUARD_BITS == 0, Fp24Paper, Fp24>;
+constexpr Testers kTesters{ROWS, COLUMNS};
 const std::uint32_t kPencils = Dut::simulator() == "ghdl" ? 3 : 40;
 
 class IntersectionUnitBench : public testing::Test {
@@ -55,12 +58,15 @@ class IntersectionUnitBench : public testing::Test {
   }
 
   void load(const SceneMemory<F>& scene) {
-    for (std::size_t k = 0; k < scene.spheres.size(); ++k) {
+    // what idle units read (address 0, and the sphere after the last) must be known: see load() of pencils
+    write(Target::sphere, 0, SphereWord<F>{}.pack());
+    write(Target::triangle, 0, TriangleWord<F>{}.pack());
+    for (std::size_t k = scene.scene.first; k < scene.spheres.size(); ++k) {
       write(Target::sphere, k, scene.spheres[k].pack());
     }
     write(Target::sphere, scene.spheres.size(),
           SphereWord<F>{}.pack());  // read, not tested: known all the same
-    for (std::size_t k = 0; k < scene.triangles.size(); ++k) {
+    for (std::size_t k = scene.scene.first; k < scene.triangles.size(); ++k) {
       write(Target::triangle, k, scene.triangles[k].pack());
     }
     write(Target::scene, 0, scene.scene.pack());
@@ -70,6 +76,7 @@ class IntersectionUnitBench : public testing::Test {
   /// Loads a bank, unused planes and rays too: in GHDL an unknown operand spoils its neighbour in the shared
   /// C port.
   void load(const PencilMemory<F>& pencil, std::size_t bank) {
+    write(Target::pencil, bank, pencil.pencil.pack());
     for (std::size_t r = 0; r < kMaxRows; ++r) {
       write(Target::plane, bank * 32 + r, pencil.rows[r].pack());
       write(Target::plane, bank * 32 + 16 + r, pencil.columns[r].pack());
@@ -77,21 +84,23 @@ class IntersectionUnitBench : public testing::Test {
     for (std::size_t ray = 0; ray < kMaxRays; ++ray) {
       write(Target::ray, bank * kMaxRays + ray, pack_ray(pencil.rays[ray]));
     }
-    write(Target::pencil, bank, pencil.pencil.pack());
     model_.pencil(bank) = pencil;
   }
 
   /// Starts the pencil of a bank and compares every edge on every clock until the unit is idle.
   void run(std::size_t bank) {
-    dut().set(dut().port("bank_i"), bank);
-    for (bool start = true; start || model_.busy(); start = false) {
+    for (bool first = true; first || model_.busy(); first = false) {
+      const bool disturb = !first && random_() % 4 == 0;  // start_i while busy: ignored
+      const bool start = first || disturb;
       dut().set(dut().port("start_i"), start ? 1 : 0);
+      dut().set(dut().port("bank_i"), disturb ? 1 - bank : bank);
       dut().settle();
       ASSERT_NO_FATAL_FAILURE(compare(model_.edges()));
       dut().clock();
-      model_.clock(start, bank);
+      model_.clock(start, disturb ? 1 - bank : bank);
     }
     dut().set(dut().port("start_i"), 0);
+    dut().set(dut().port("bank_i"), bank);
     dut().settle();
     ASSERT_NO_FATAL_FAILURE(expect("busy_o", 0));
   }
@@ -131,7 +140,8 @@ class IntersectionUnitBench : public testing::Test {
     }
   }
 
-  IntersectionUnit<F> model_;
+  IntersectionUnit<F> model_{kTesters};
+  std::mt19937 random_{5};
   std::array<std::uint64_t, kNumCounters> total_{};
 
  private:
@@ -170,7 +180,7 @@ class IntersectionUnitBench : public testing::Test {
 
 TEST_F(IntersectionUnitBench, TracesAPencilOfEverySizeThroughATree) {
   Scenes<F> scenes(121);
-  const SceneMemory<F> scene = scenes.scene(3, 3);
+  const SceneMemory<F> scene = scenes.scene(3, 3, 0xb57);
   load(scene);
   for (std::uint32_t k = 0; k < kPencils; ++k) {
     const PencilMemory<F> pencil =
@@ -215,11 +225,52 @@ TEST_F(IntersectionUnitBench, EndsAPencilOfAnEmptySceneWithItsHitsCleared) {
   ASSERT_NO_FATAL_FAILURE(check(empty, pencil, 0));
 }
 
+TEST_F(IntersectionUnitBench, StartsAfreshAfterAResetInTheMiddleOfAPencil) {
+  Scenes<F> scenes(125);
+  const SceneMemory<F> scene = scenes.scene(2, 4);
+  const std::array<PencilMemory<F>, 2> pencils{scenes.pencil(16, 16), scenes.pencil(4, 7)};
+  load(scene);
+  load(pencils[0], 0);
+  load(pencils[1], 1);
+  for (int clocks = 1; clocks < 90; clocks += Dut::simulator() == "ghdl" ? 29 : 1) {
+    dut().set(dut().port("bank_i"), 0);
+    dut().set(dut().port("start_i"), 1);
+    dut().clock();
+    dut().set(dut().port("start_i"), 0);
+    for (int k = 0; k < clocks; ++k) {
+      dut().clock();
+    }
+    reset_dut();
+    model_ = IntersectionUnit<F>(kTesters);
+    model_.load(&scene);
+    model_.pencil(1) = pencils[1];
+    ASSERT_NO_FATAL_FAILURE(run(1)) << "after " << clocks << " clocks";
+    ASSERT_NO_FATAL_FAILURE(check(scene, pencils[1], 1)) << "after " << clocks << " clocks";
+  }
+}
+
+TEST_F(IntersectionUnitBench, TakesSetsTimesSpheresAnd17ClocksForAListThatIsMissed) {
+  Scenes<F> scenes(126);
+  constexpr std::uint32_t kSpheres = 37;
+  SceneMemory<F> scene;
+  const SphereWord<F> aside{{F::from_double(0.9), F::from_double(0.9), F::from_double(-2)}, F(), true, 1, 0};
+  scene.spheres.assign(kSpheres, aside);
+  scene.triangles.resize(1);
+  scene.scene = {kSpheres, kSpheres, 0};
+  const PencilMemory<F> pencil = scenes.pencil(16, 3);
+  load(scene);
+  load(pencil, 0);
+  ASSERT_NO_FATAL_FAILURE(run(0));
+  ASSERT_NO_FATAL_FAILURE(check(scene, pencil, 0));
+  const std::uint32_t sets = std::max(16 / ROWS, (3 + COLUMNS - 1) / COLUMNS);
+  EXPECT_EQ(total_[static_cast<std::size_t>(Counter::cycles)], kSpheres * sets + 17);
+}
+
 TEST_F(IntersectionUnitBench, LoadsTheOtherBankWhileAPencilRuns) {
   Scenes<F> scenes(123);
-  const SceneMemory<F> scene = scenes.scene(2, 4);
+  const SceneMemory<F> scene = scenes.scene(3, 6);
   load(scene);
-  const std::array<PencilMemory<F>, 2> pencils{scenes.pencil(8, 8), scenes.pencil(5, 16)};
+  const std::array<PencilMemory<F>, 2> pencils{scenes.pencil(16, 16), scenes.pencil(5, 16)};
   load(pencils[0], 0);
   dut().set(dut().port("bank_i"), 0);
   dut().set(dut().port("start_i"), 1);
@@ -228,6 +279,7 @@ TEST_F(IntersectionUnitBench, LoadsTheOtherBankWhileAPencilRuns) {
   model_.clock(true, 0);
   const std::uint64_t before = dut().cycles();
   load(pencils[1], 1);
+  ASSERT_EQ(dut().get(dut().port("busy_o")), 1U) << "the pencil is too short for this test";
   for (std::uint64_t k = 0; k < dut().cycles() - before; ++k) {
     model_.clock(false, 0);
   }

@@ -39,14 +39,23 @@ TEST(NearestHit, OrdersExactQuotientsAndTiesByTheLowerTriangle) {
   std::array<int, 3> orders{};
   for (int k = 0; k < kCases && !testing::Test::HasFailure(); ++k) {
     const auto positive = [&pairs] { return pairs.word(pairs.between(1, 127)) & 0x7fffffU; };
-    const std::uint32_t t = positive();
-    const std::uint32_t d = positive();
+    std::uint32_t t = positive();
+    std::uint32_t d = positive();
     ResultWord<Fp24> best{
         pairs.bits(3) != 0, pairs.bits(2), Fp24::from_bits(positive()), Fp24::from_bits(positive()), {}, {}};
     if (k % 2 == 0) {  // equal, or an ulp apart, or scaled by a power of two
       const std::uint32_t scale = (t >> 16) < 120 && (d >> 16) < 120 ? 0x010000U * pairs.bits(2) : 0U;
       best.t = Fp24::from_bits(t + scale + (k % 8 == 0 && (t & 0xffff) != 0xffff ? 1U : 0U));
       best.d = Fp24::from_bits(d + scale);
+    }
+    if (k % 4 == 1) {  // products that differ by 1 in all their 34 bits: x * x against (x - 1) * (x + 1)
+      const std::uint32_t x = 0x400000U | (1 + pairs.bits(16) % 0xfffe);
+      const bool farther = pairs.bits(1) != 0;
+      best.hit = true;
+      t = farther ? x : x - 1;
+      best.d = Fp24::from_bits(farther ? x : x + 1);
+      best.t = Fp24::from_bits(farther ? x - 1 : x);
+      d = farther ? x + 1 : x;
     }
     const std::uint32_t triangle = pairs.bits(2);
     const int order = Product(t, best.d.bits()).compare(Product(best.t.bits(), d));

@@ -45,6 +45,11 @@ class PlaneSphereTester : public testing::Test {
       expect_port(meets_, *due ? 1 : 0, "meets_o");
     }
   }
+  void TearDown() override {  // the last results leave the pipeline
+    for (int k = 1; k < kTesterStages; ++k) {
+      check({});
+    }
+  }
 
   PortId plane_ = dut().port("plane_i");
   PortId ball_ = dut().port("ball_i");

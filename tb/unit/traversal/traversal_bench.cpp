@@ -11,6 +11,8 @@ namespace {
 
 const PortStage kStages[]{{"request_o", 0}, {"address_o", 0}, {"set_o", 0}, {"first_o", 0}, {"last_o", 0}};
 
+constexpr std::uint32_t kFirst = 0x81234;  // address of the root range
+
 struct Node {
   bool inner = false;
   std::uint32_t first = 0;
@@ -47,7 +49,7 @@ class TraversalBench : public testing::Test {
     std::deque<SphereRequest> testers(static_cast<std::size_t>(latency));
     std::vector<int> seen(nodes.size());
     int leaves = 0;
-    dut().set(dut().port("root_first_i"), 0);
+    dut().set(dut().port("root_first_i"), kFirst);
     dut().set(dut().port("root_count_i"), root);
     dut().set(dut().port("last_set_i"), static_cast<std::uint64_t>(last_set));
     for (int k = 0; k == 0 || k == 1 || !model.idle(); ++k) {
@@ -55,11 +57,12 @@ class TraversalBench : public testing::Test {
       const SphereRequest leaving = testers.front();
       testers.pop_front();
       const bool decided = leaving.valid && leaving.last_set;
-      const Node node = decided ? nodes[leaving.address] : Node{};
+      const Node node = decided ? nodes[leaving.address - kFirst] : Node{};
       dut().set(dut().port("start_i"), k == 0 ? 1 : 0);
       dut().set(dut().port("decided_i"), decided ? 1 : 0);
       dut().set(dut().port("push_i"), node.inner ? 1 : 0);
-      dut().set(dut().port("push_first_i"), node.first);
+      const SphereRange children{node.first + kFirst, node.count};
+      dut().set(dut().port("push_first_i"), children.first);
       dut().set(dut().port("push_count_i"), node.count);
       dut().set(dut().port("leaves_i"), static_cast<std::uint64_t>(leaves));
       dut().settle();
@@ -76,11 +79,11 @@ class TraversalBench : public testing::Test {
             expect_port(dut().port("set_o"), static_cast<std::uint64_t>(request.set), "set_o"));
         ASSERT_NO_FATAL_FAILURE(expect_port(dut().port("first_o"), request.first_set ? 1 : 0, "first_o"));
         ASSERT_NO_FATAL_FAILURE(expect_port(dut().port("last_o"), request.last_set ? 1 : 0, "last_o"));
-        seen[request.address] += request.last_set ? 1 : 0;
+        seen[request.address - kFirst] += request.last_set ? 1 : 0;
       }
       testers.push_back(request);
       dut().clock();
-      model.clock(k == 0, {0, root}, request, node.inner, {node.first, node.count}, decided);
+      model.clock(k == 0, {kFirst, root}, request, node.inner, children, decided);
       const bool leaf = decided && !node.inner && random() % 2 == 0;
       leaves += (leaf ? 1 : 0) - (leaves > 0 && random() % 100 < take_percent ? 1 : 0);
       ASSERT_LE(leaves, kLeafFifoDepth);

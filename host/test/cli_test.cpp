@@ -113,7 +113,7 @@ TEST_F(Cli, NamesBadMeshes) {
   expect_bad_mesh("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n", "vertex 2");
   expect_bad_mesh("inf.obj", "v 0 0 0\nv 1 0 0\nv 0 inf 0\nf 1 2 3\n", "vertex 3");
   expect_bad_mesh("points.obj", kTriangle, "no triangles");
-  expect_bad_mesh("range.obj", kTriangle + "f 1 2 9\n", "index out of range");
+  expect_bad_mesh("range.obj", kTriangle + "f 1 2 9\n", "not a mesh (OBJ: vertex index out of range)");
   expect_bad_mesh("flat.obj", kTriangle + "f 1 2 2\n", "no triangles with an area");
 }
 

@@ -51,14 +51,4 @@ void TraceWriter::line(std::uint64_t clock, std::span<const std::string> values)
   file_ << '\n';
 }
 
-void TraceWriter::line(std::span<const std::uint64_t> values) {
-  std::vector<std::string> texts;
-  for (std::size_t i = 0; i < values.size() && i < fields_.size(); ++i) {
-    const std::array<std::uint32_t, 2> words{static_cast<std::uint32_t>(values[i]),
-                                             static_cast<std::uint32_t>(values[i] >> kWordBits)};
-    texts.push_back(trace_hex(words, {}, fields_[i].width));
-  }
-  line(clock_++, texts);
-}
-
 }  // namespace raplas

@@ -37,13 +37,10 @@ class TraceWriter {
 
   /// Writes one clock: a hexadecimal text for each field (trace_hex, or x digits for "any value").
   void line(std::uint64_t clock, std::span<const std::string> values);
-  /// The same for fields of up to 64 bits; clocks are numbered from 0.
-  void line(std::span<const std::uint64_t> values);
 
  private:
   std::vector<TraceField> fields_;
   std::ofstream file_;
-  std::uint64_t clock_ = 0;
 };
 
 }  // namespace raplas

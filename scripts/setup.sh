@@ -12,6 +12,8 @@ packages=(
   build-essential cmake ninja-build ccache git python3
   # VHDL and Verilog: simulation, export, netlists
   ghdl ghdl-llvm verilator yosys
+  # proofs
+  berkeley-abc gappa z3
   # libraries of the host and the tests
   libassimp-dev libcli11-dev libfmt-dev libglm-dev libpng-dev nlohmann-json3-dev
   libgtest-dev libgmock-dev libmpfr-dev libgmp-dev

@@ -13,6 +13,10 @@
 # makes a static library with the Verilated class PREFIX (header PREFIX.h), built for speed;
 # libraries of different PREFIX can be linked into one program.
 #
+#   raplas_mutation_bench(NAME)
+# makes the executable <NAME>.mutants of a bench that raplas_bench made with prim generic: the same
+# objects, linked with the unit's netlist and all its mutants (formal/mutants.py). Not part of `all`.
+#
 # Settings: RAPLAS_ROOT, RAPLAS_SOURCES (default rtl/sources.txt). Needs the Ninja generator.
 include_guard(GLOBAL)
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
@@ -26,6 +30,7 @@ get_filename_component(RAPLAS_ROOT "${CMAKE_CURRENT_LIST_DIR}/.." ABSOLUTE)
 set(RAPLAS_SOURCES "${RAPLAS_ROOT}/rtl/sources.txt" CACHE FILEPATH "VHDL files in analysis order")
 set(RAPLAS_EXPORT "${RAPLAS_ROOT}/scripts/export_verilog.py")
 set(RAPLAS_BRIDGE "${RAPLAS_ROOT}/scripts/bridge.py")
+set(RAPLAS_MUTANTS "${RAPLAS_ROOT}/formal/mutants.py")
 set(RAPLAS_SCRIPTS ${RAPLAS_EXPORT} ${RAPLAS_BRIDGE})
 file(GLOB RAPLAS_SIM_VHDL ${RAPLAS_ROOT}/tb/sim/*.vhd)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${RAPLAS_SOURCES})
@@ -168,6 +173,7 @@ function(raplas_bench)
     set(RAPLAS_SOURCES ${ARG_VHDL_LIST})  # as the functions called from here see it
   endif()
   add_custom_target(${ARG_NAME})
+  set_property(TARGET ${ARG_NAME} PROPERTY RAPLAS_UNIT ${ARG_UNIT})
   add_library(${ARG_NAME}.objects OBJECT EXCLUDE_FROM_ALL ${ARG_SOURCES})  # once for all pairs
   target_link_libraries(${ARG_NAME}.objects PUBLIC raplas_bench_main ${ARG_LIBRARIES})
   foreach(prim IN LISTS ARG_PRIMS)
@@ -198,4 +204,28 @@ function(raplas_bench)
                            TIMEOUT ${ARG_TIMEOUT})
     endforeach()
   endforeach()
+endfunction()
+
+function(raplas_mutation_bench NAME)
+  get_property(unit TARGET ${NAME} PROPERTY RAPLAS_UNIT)
+  set(export ${CMAKE_CURRENT_BINARY_DIR}/${NAME}.generic)
+  set(folder ${CMAKE_CURRENT_BINARY_DIR}/${NAME}.mutation)
+  set(target ${NAME}.mutants)
+  add_custom_command(
+    OUTPUT ${folder}/mutants.stamp
+    BYPRODUCTS ${folder}/${unit}.v ${folder}/unisim.v ${folder}/ports.txt ${folder}/bench_ports.hpp
+               ${folder}/mutants.txt ${folder}/netlist.il
+    COMMAND Python3::Interpreter ${RAPLAS_MUTANTS} --bench ${NAME} --export ${export} --out ${folder}
+    COMMAND Python3::Interpreter ${RAPLAS_BRIDGE} tables --unit ${unit} --export ${folder} --prefix Vdut
+    COMMAND ${CMAKE_COMMAND} -E touch ${folder}/mutants.stamp
+    DEPENDS ${export}/${unit}.v ${export}/ports.txt ${RAPLAS_MUTANTS} ${RAPLAS_BRIDGE}
+    COMMENT "Mutants of ${unit} (${NAME})" VERBATIM)
+  add_custom_target(${target}.netlist DEPENDS ${folder}/mutants.stamp)
+  add_dependencies(${target}.netlist ${NAME}.generic.export)
+  raplas_verilate(${target}.model ${folder} ${unit} Vdut -O1 "--x-assign;unique;--x-initial;unique")
+  add_dependencies(${target}.model ${target}.netlist)
+  add_executable(${target} EXCLUDE_FROM_ALL ${RAPLAS_ROOT}/tb/bridge/dut_verilator.cpp)
+  target_include_directories(${target} PRIVATE ${folder})
+  target_link_libraries(${target} PRIVATE ${NAME}.objects raplas_bench_main ${target}.model)
+  add_dependencies(${target} ${target}.netlist)
 endfunction()

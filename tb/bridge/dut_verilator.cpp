@@ -2,7 +2,8 @@
 //
 // Verilator's port types (8 to 64 bits, or an array of 32-bit words) are all plain
 // little-endian memory, so a port is an address and a size. Registers without an
-// initial value start at random (fixed seed): nothing may rely on zeros.
+// initial value start at random (fixed seed): nothing may rely on zeros. A netlist with
+// mutants (formal/mutants.py) runs the one that RAPLAS_MUTANT names, or none.
 #include <verilated.h>
 
 #include <array>
@@ -11,6 +12,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <string>
+#include <type_traits>
 
 #include "bench_ports.hpp"
 #include "bridge/backend.hpp"
@@ -43,6 +45,11 @@ struct Model {
     for (std::size_t i = 0; i < kPorts.size(); ++i) {
       if (kPorts[i].is_input) std::memset(storage[i].data, 0, storage[i].bytes);
     }
+#if RAPLAS_HAS_MUTANTS
+    const char* mutant = std::getenv("RAPLAS_MUTANT");
+    using Number = std::remove_reference_t<decltype(unit.mutant_i)>;
+    unit.mutant_i = static_cast<Number>(mutant != nullptr ? std::atoi(mutant) : 0);
+#endif
     set_clock(0);
     unit.eval();
   }

@@ -1,5 +1,182 @@
-EXPECTED = {}
+"""Control theorems: queues, selector, pair_issue, traversal, decoder, result memory.
+
+The properties of formal/control/NAME.sv are put inside the exported unit, before its endmodule, as a
+SystemVerilog bind would do: they see its ports and, for the invariants, its registers. Yosys' `sat`
+(MiniSat) then proves the assertions for all inputs and for any number of clocks by k-induction:
+
+  base       in the first K clocks, reset being the first, they hold;
+  induction  from any state and inputs, if they hold in K clocks running, they hold in the next.
+
+If the induction fails, a counterexample is sought in the first DEPTH clocks. Each `cover` is a case of
+its own: a trace must reach it, so the assumptions are not contradictory.
+"""
+import collections
+import dataclasses
+import functools
+import pathlib
+import re
+import shutil
+import subprocess
+
+from proof import FORMAL, PROVED, REFUTED, UNDECIDED, Case, Once, Result, export
+
+SECONDS = 600  # of one run of the solver
+REFUTATION = "model found for base case"
+
+
+@dataclasses.dataclass(frozen=True)
+class Model:
+    """A unit with its properties."""
+
+    theorem: str
+    name: str
+    unit: str
+    generics: dict = dataclasses.field(default_factory=dict)
+    constants: dict = dataclasses.field(default_factory=dict)  # other values in raplas_constants.vhd
+    properties: str = ""   # file name, if not the unit's
+    k: int = 1
+    depth: int = 12        # clocks in search of a counterexample
+    cover: int = 0         # clocks in which every cover is reached; 0: not a case
+    quick: bool = True
+
+
+MODELS = (
+    Model("control.fifo", "depth2", "fifo", {"WIDTH": 2, "DEPTH_LOG2": 1}),
+    Model("control.fifo", "depth4", "fifo", {"WIDTH": 2, "DEPTH_LOG2": 2}, cover=8),
+    Model("control.fifo", "depth8", "fifo", {"WIDTH": 2, "DEPTH_LOG2": 3}),
+    Model("control.fifo", "pairs", "fifo", {"WIDTH": 28, "DEPTH_LOG2": 4}),
+    Model("control.fifo", "leaves", "fifo", {"WIDTH": 59, "DEPTH_LOG2": 5}),
+    Model("control.selector", "all", "selector", cover=10),
+    Model("control.pair_issue", "all", "pair_issue", cover=10),
+    Model("control.decoder", "1x1", "plane_sphere_decoder", {"NUM_ROWS": 1, "NUM_COLUMNS": 1}, cover=6),
+    Model("control.decoder", "4x4", "plane_sphere_decoder", {"NUM_ROWS": 4, "NUM_COLUMNS": 4}),
+    Model("control.decoder", "2x16", "plane_sphere_decoder", {"NUM_ROWS": 2, "NUM_COLUMNS": 16}),
+)
+
+
+def with_constants(rtl, constants, folder):
+    """A copy of rtl/ in which raplas_constants.vhd has other values."""
+    shutil.copytree(rtl, folder, dirs_exist_ok=True)
+    path = folder / "common/raplas_constants.vhd"
+    text = path.read_text()
+    for name, value in constants.items():
+        text, count = re.subn(rf"(constant {name} : natural := )\d+;", rf"\g<1>{value};", text)
+        if count != 1:
+            raise RuntimeError(f"constant {name} occurs {count} times in raplas_constants.vhd")
+    path.write_text(text)
+    return folder
+
+
+def constants_of(rtl):
+    text = (rtl / "common/raplas_constants.vhd").read_text()
+    return dict(re.findall(r"constant (\w+) : natural := (\d+);", text))
+
+
+def build(model, folder, rtl, cover=None):
+    """The unit with its properties as a netlist; with `cover`, its negation is the only assertion."""
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    if model.constants:
+        rtl = with_constants(rtl, model.constants, folder / "rtl")
+    text = properties(model).read_text()
+    if cover:
+        text = re.sub(rf"\b{cover}: cover \((.*)\);", rf"{cover}: assert (!(\1));", text.replace(": assert ", ": cover "))
+    generics = [f"{name}={value}" for name, value in model.generics.items()]
+    body, end = export(model.unit, folder, generics, rtl=rtl).read_text().rsplit("endmodule", 1)
+    parameters = {**constants_of(rtl), **model.generics}
+    used = sorted(set(re.findall(r"\b[A-Z][A-Z0-9_]+\b", text)) & parameters.keys())
+    bound = folder / "bound.sv"
+    bound.write_text(body + "".join(f"localparam {name} = {parameters[name]};\n" for name in used)
+                     + f"{text}endmodule{end}")
+    netlist = folder / "model.il"
+    yosys(f"read_verilog -formal -sv {bound}; prep -nordff -top {model.unit}; chformal -cover -remove; memory_map; "
+          f"opt -full; dffunmap; opt_clean; check -assert; write_rtlil {netlist}")
+    return netlist
+
+
+def properties(model):
+    return FORMAL / "control" / f"{model.properties or model.unit}.sv"
+
+
+def yosys(script):
+    run = subprocess.run(["yosys", "-Q", "-T", "-p", script], capture_output=True, text=True, timeout=SECONDS)
+    if run.returncode:
+        raise RuntimeError(f"yosys: {run.stderr[-1500:] or run.stdout[-1500:]}")
+    return run.stdout
+
+
+def prove(netlist, *options):
+    """What the SAT solver prints."""
+    return yosys(f"read_rtlil {netlist}; sat -set-assumes -prove-asserts -show-all -tempinduct {' '.join(map(str, options))}")
+
+
+def clocks(output):
+    """[{name: bits}] of the table that the solver prints of a model, one a clock."""
+    rows = {}
+    for step, name, bits in re.findall(r"(?m)^ +(\d+) \\?(\S+) +\S+ +\S+ +([01x]+)$", output):
+        rows.setdefault(int(step), {})[name] = bits
+    return [rows[step] for step in sorted(rows)]
+
+
+def counterexample(output, model, netlist):
+    """The assertions that fail in the last clock; the ports, a line a clock, in hexadecimal; then all else."""
+    rows, cells = clocks(output), netlist.read_text()
+    last = rows[-1]
+    failing = [name for name, check, enable
+               in re.findall(r"cell \$assert \\(\w+)\n +connect \\A \\?(\S+)\n +connect \\EN \\?(\S+)\n", cells)
+               if last.get(check) == "0" and last.get(enable, "1") == "1"]
+    lines = [line.strip() for line in properties(model).read_text().splitlines()
+             if line.strip().startswith(tuple(f"{name}: " for name in failing))]
+    ports = [name for way in ("input", "output") for name in
+             re.findall(rf"(?m)^  wire (?:width \d+ )?{way} \d+ \\(\w+)$", cells) if name != "clk_i"]
+
+    def show(row, names):
+        return " ".join(f"{name}={int(row[name], 2):x}" for name in names if set(row.get(name, "x")) <= set("01"))
+
+    ghosts = [name for name in last if re.fullmatch(r"[a-z]\w+", name) and name not in ports
+              and not re.match(r"n\d+_|rin$|clk_i", name)]
+    lines += [f"clock {k}: {show(row, ports)}" for k, row in enumerate(rows)]
+    return "\n    ".join([*lines, f"beside: {show(last, ghosts)}"])
+
+
+def decide(model, netlist):
+    path = netlist()
+    output = prove(path, f"-maxsteps {model.k}")
+    if "Induction step proven: SUCCESS!" in output:
+        return Result(PROVED)
+    if REFUTATION not in output:
+        output = prove(path, f"-tempinduct-baseonly -maxsteps {model.depth}")
+    if REFUTATION in output:
+        return Result(REFUTED, counterexample(output, model, path))
+    step = prove(path, f"-tempinduct-inductonly -maxsteps {model.k}")
+    return Result(UNDECIDED, f"no counterexample in {model.depth} clocks, but the induction fails\n    "
+                             f"{counterexample(step, model, path)}")
+
+
+def reached(model, netlist):
+    """A trace to a cover: a counterexample of its negation."""
+    if REFUTATION in prove(netlist(), f"-tempinduct-baseonly -maxsteps {model.cover}"):
+        return Result(PROVED)
+    return Result(REFUTED, f"not reached in {model.cover} clocks, so the assumptions contradict each other or the unit")
+
+
+def covers(model):
+    return re.findall(r"\b(\w+): cover ", properties(model).read_text()) if model.cover else []
 
 
 def cases(work, rtl):
-    return []
+    made = []
+    for model in MODELS:
+        folder = work / model.theorem / model.name
+
+        def add(name, check, *arguments):
+            netlist = Once(functools.partial(build, model, folder / name, rtl, *arguments))
+            made.append(Case(model.theorem, name, functools.partial(check, model, netlist), model.quick))
+
+        add(model.name, decide)
+        for cover in covers(model):
+            add(f"{model.name}.reached.{cover}", reached, cover)
+    return made
+
+
+EXPECTED = collections.Counter(model.theorem for model in MODELS for _ in [model, *covers(model)])

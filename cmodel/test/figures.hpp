@@ -1,0 +1,45 @@
+// Figures of a test, for scripts/figures.py.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace raplas {
+
+/// RAPLAS_CASES, the number of cases of a long run; `standard` if it isn't set.
+[[nodiscard]] inline std::uint64_t number_of_cases(std::uint64_t standard) {
+  const char* text = std::getenv("RAPLAS_CASES");
+  return text == nullptr ? standard : std::stoull(text);
+}
+
+/// Collects figures; write() puts them into the file that RAPLAS_FIGURES names, if it is set.
+class Figures {
+ public:
+  template <typename Value>
+  void add(const std::string& name, Value value, const char* unit) {
+    const bool is_long = std::getenv("RAPLAS_CASES") != nullptr;
+    figures_[name] = {{"value", value}, {"unit", unit}, {"command", is_long ? "make prove" : "make sim"}};
+  }
+
+  void write() const {
+    const char* path = std::getenv("RAPLAS_FIGURES");
+    if (path == nullptr) {
+      return;
+    }
+    std::filesystem::create_directories(std::filesystem::path(path).parent_path());
+    std::ofstream file(path);
+    file << figures_.dump(2) << "\n";
+    EXPECT_TRUE(file.good()) << path;
+  }
+
+ private:
+  nlohmann::ordered_json figures_;
+};
+
+}  // namespace raplas

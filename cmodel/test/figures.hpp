@@ -18,7 +18,8 @@ namespace raplas {
   return text == nullptr ? standard : std::stoull(text);
 }
 
-/// Collects figures; write() puts them into the file that RAPLAS_FIGURES names, if it is set.
+/// Collects figures; write() puts them into the file that RAPLAS_FIGURES names, if it is set. `suffix` comes
+/// before its extension: tests of one program that run at the same time need files of their own.
 class Figures {
  public:
   template <typename Value>
@@ -27,12 +28,14 @@ class Figures {
     figures_[name] = {{"value", value}, {"unit", unit}, {"command", is_long ? "make prove" : "make sim"}};
   }
 
-  void write() const {
-    const char* path = std::getenv("RAPLAS_FIGURES");
-    if (path == nullptr) {
+  void write(const char* suffix = "") const {
+    const char* name = std::getenv("RAPLAS_FIGURES");
+    if (name == nullptr) {
       return;
     }
-    std::filesystem::create_directories(std::filesystem::path(path).parent_path());
+    std::filesystem::path path = name;
+    path.replace_filename(path.stem().string() + suffix + path.extension().string());
+    std::filesystem::create_directories(path.parent_path());
     std::ofstream file(path);
     file << figures_.dump(2) << "\n";
     EXPECT_TRUE(file.good()) << path;

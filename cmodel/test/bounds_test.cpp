@@ -430,7 +430,7 @@ void check_hypotheses(std::uint64_t seed) {
   const Datapath script(Case::kFile);
   Operands<Case> operands(seed);
   std::map<std::string, double> largest;
-  for (int k = 0; k < 100'000; ++k) {
+  for (int k = 0; k < 30'000; ++k) {
     const auto words = operands.fresh();
     std::map<std::string, double> value;
     for (std::size_t i = 0; i < words.size(); ++i) {

@@ -20,6 +20,8 @@ import subprocess
 
 from proof import FORMAL, PROVED, REFUTED, UNDECIDED, Case, Once, Result, export
 
+import os
+QUICKTEST = "QT" in os.environ
 SECONDS = 600  # of one run of the solver
 REFUTATION = "model found for base case"
 
@@ -33,13 +35,18 @@ class Model:
     unit: str
     generics: dict = dataclasses.field(default_factory=dict)
     constants: dict = dataclasses.field(default_factory=dict)  # other values in raplas_constants.vhd
-    properties: str = ""   # file name, if not the unit's
+    properties: tuple = ()  # file names, if not the unit's
     k: int = 1
     depth: int = 12        # clocks in search of a counterexample
     cover: int = 0         # clocks in which every cover is reached; 0: not a case
     quick: bool = True
 
 
+SMALL = {"STACK_DEPTH": 8, "STACK_DEPTH_LOG2": 3, "STACK_WATERMARK": 2, "LEAF_FIFO_DEPTH": 2, "LEAF_FIFO_DEPTH_LOG2": 1,
+         "ID_BITS": 5, "COUNT_BITS": 3}
+WALK = dict(unit="traversal", properties=("traversal",))
+STACK = dict(unit="traversal", properties=("traversal", "traversal_stack"))
+RANGE = dict(unit="traversal", properties=("traversal", "traversal_range"))
 MODELS = (
     Model("control.fifo", "depth2", "fifo", {"WIDTH": 2, "DEPTH_LOG2": 1}),
     Model("control.fifo", "depth4", "fifo", {"WIDTH": 2, "DEPTH_LOG2": 2}, cover=8),
@@ -51,6 +58,12 @@ MODELS = (
     Model("control.decoder", "1x1", "plane_sphere_decoder", {"NUM_ROWS": 1, "NUM_COLUMNS": 1}, cover=6),
     Model("control.decoder", "4x4", "plane_sphere_decoder", {"NUM_ROWS": 4, "NUM_COLUMNS": 4}),
     Model("control.decoder", "2x16", "plane_sphere_decoder", {"NUM_ROWS": 2, "NUM_COLUMNS": 16}),
+    Model("control.walk", "small", **WALK, constants=SMALL, cover=12),
+    Model("control.walk", "real", **WALK),
+    Model("control.stack", "small", **STACK, constants=SMALL, cover=30),
+    Model("control.stack", "real", **STACK),
+    Model("control.range", "small", **RANGE, constants=SMALL, cover=14),
+    Model("control.range", "real", **RANGE),
 )
 
 
@@ -78,7 +91,7 @@ def build(model, folder, rtl, cover=None):
     folder.mkdir(parents=True)
     if model.constants:
         rtl = with_constants(rtl, model.constants, folder / "rtl")
-    text = properties(model).read_text()
+    text = properties(model)
     if cover:
         text = re.sub(rf"\b{cover}: cover \((.*)\);", rf"{cover}: assert (!(\1));", text.replace(": assert ", ": cover "))
     generics = [f"{name}={value}" for name, value in model.generics.items()]
@@ -95,7 +108,7 @@ def build(model, folder, rtl, cover=None):
 
 
 def properties(model):
-    return FORMAL / "control" / f"{model.properties or model.unit}.sv"
+    return "".join((FORMAL / "control" / f"{name}.sv").read_text() for name in model.properties or (model.unit,))
 
 
 def yosys(script):
@@ -125,7 +138,7 @@ def counterexample(output, model, netlist):
     failing = [name for name, check, enable
                in re.findall(r"cell \$assert \\(\w+)\n +connect \\A \\?(\S+)\n +connect \\EN \\?(\S+)\n", cells)
                if last.get(check) == "0" and last.get(enable, "1") == "1"]
-    lines = [line.strip() for line in properties(model).read_text().splitlines()
+    lines = [line.strip() for line in properties(model).splitlines()
              if line.strip().startswith(tuple(f"{name}: " for name in failing))]
     ports = [name for way in ("input", "output") for name in
              re.findall(rf"(?m)^  wire (?:width \d+ )?{way} \d+ \\(\w+)$", cells) if name != "clk_i"]
@@ -145,6 +158,9 @@ def decide(model, netlist):
     if "Induction step proven: SUCCESS!" in output:
         return Result(PROVED)
     if REFUTATION not in output:
+        if QUICKTEST:
+            step = prove(path, f"-tempinduct-inductonly -maxsteps {model.k}")
+            return Result(UNDECIDED, counterexample(step, model, path))
         output = prove(path, f"-tempinduct-baseonly -maxsteps {model.depth}")
     if REFUTATION in output:
         return Result(REFUTED, counterexample(output, model, path))
@@ -161,7 +177,7 @@ def reached(model, netlist):
 
 
 def covers(model):
-    return re.findall(r"\b(\w+): cover ", properties(model).read_text()) if model.cover else []
+    return re.findall(r"\b(\w+): cover ", properties(model)) if model.cover else []
 
 
 def cases(work, rtl):

@@ -14,7 +14,8 @@ Written into DIR of --out:
 Gates: everything is mapped to AND, OR, XOR, NOT, MUX and flip-flops with reset and enable, optimised by ABC.
 Two kinds of cells stay whole, as they are one block in the FPGA: memories and the multiplications (DSP48);
 their ports are mutated like those of gates. In dsp_mul the multiplication is made of gates too.
-Words: intersection_unit stays at the level of adders, multiplexers and registers of words.
+Words: the large units, made of units that are mutated as gates too, stay at the level of adders,
+multiplexers and registers of words.
 A mutant inverts one bit of one port of one cell, or holds it at 0 or at 1, or (words only) inverts it
 when another bit of the port is 0, or 1. Clocks, and pins tied to a constant, are left alone.
 """
@@ -52,16 +53,16 @@ UNITS = {
     "fp_add": Bench("fp_add", ARITHMETIC),
     "fp_add_paper": Bench("fp_add", ARITHMETIC),
     "plane_sphere_tester": Bench("plane_sphere_tester", ARITHMETIC),
-    "plane_sphere_subunit": Bench("plane_sphere_subunit", ARITHMETIC),
+    "plane_sphere_subunit": Bench("plane_sphere_subunit", ARITHMETIC, level=WORDS),
     "nearest_hit": Bench("nearest_hit", ARITHMETIC),
-    "ray_triangle": Bench("ray_triangle", ARITHMETIC),
+    "ray_triangle": Bench("ray_triangle", ARITHMETIC, level=WORDS),
     "fifo": Bench("fifo", CONTROL),
     "plane_sphere_decoder": Bench("plane_sphere_decoder", CONTROL),
     "traversal": Bench("traversal", CONTROL),
     "selector": Bench("selector", CONTROL),
     "pair_issue": Bench("pair_issue", CONTROL),
     "result_memory": Bench("result_memory", CONTROL),
-    "intersection_unit": Bench("intersection_unit", CONTROL, 200, WORDS),
+    "intersection_unit": Bench("intersection_unit", CONTROL, level=WORDS),
 }
 
 SHARED = "hierarchy -check -top {unit}; proc; flatten; opt; wreduce; peepopt; opt_clean; opt -full; memory -nomap; opt_clean"

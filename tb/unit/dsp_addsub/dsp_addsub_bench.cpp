@@ -26,8 +26,12 @@ TEST(DspAddsub, AddsAndSubtractsEveryClock) {
   std::deque<std::uint64_t> cs;
   std::deque<std::array<std::uint64_t, 3>> abs;
   for (int k = 0; k < kClocks && !testing::Test::HasFailure(); ++k) {
-    const auto word = [&random](unsigned bits) {
+    const auto word = [&random](unsigned bits) -> std::uint64_t {
       const std::uint64_t mask = (std::uint64_t{1} << bits) - 1;
+      if (bits > 1 && random() % 4 == 0) {  // ones up to a bit, and none or noise above: long carries
+        const std::uint64_t ones = (std::uint64_t{2} << (random() % bits)) - 1;
+        return (ones | (random() % 2 == 0 ? random() & ~ones : 0)) & mask;
+      }
       return random() % 8 == 0 ? (random() % 2 == 0 ? mask : 0)
                                : random() & mask & ((random() % 4 == 0) ? random() : ~0ULL);
     };

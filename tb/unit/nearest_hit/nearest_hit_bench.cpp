@@ -74,5 +74,31 @@ TEST(NearestHit, OrdersExactQuotientsAndTiesByTheLowerTriangle) {
   EXPECT_GT(*std::min_element(orders.begin(), orders.end()), kCases / 50) << "an order is hardly tested";
 }
 
+TEST(NearestHit, ComparesAllBitsOfBothTrianglesInATie) {
+  OperandPairs pairs(92);
+  Scoreboard<bool> board(kMulStages);
+  for (unsigned bit = 0; bit < kIdBits; ++bit) {  // equal above the bit, and anything below it
+    for (int k = 0; k < 32 && !testing::Test::HasFailure(); ++k) {
+      const std::uint32_t one = 1U << bit;
+      const std::uint32_t above = pairs.bits(kIdBits) & ~(2 * one - 1);
+      const bool nearer = k % 2 == 0;
+      const std::uint32_t low = k < 8 ? one - 1 : pairs.bits(bit);
+      const std::uint32_t other = k < 8 ? 0 : pairs.bits(bit);
+      const std::uint32_t triangle = above | (nearer ? low : one | other);
+      const std::uint32_t best_triangle = above | (nearer ? one | other : low);
+      const std::uint32_t t = pairs.word(pairs.between(1, 127)) & 0x7fffffU;
+      const std::uint32_t d = pairs.word(pairs.between(1, 127)) & 0x7fffffU;
+      const ResultWord<Fp24> best{true, best_triangle, Fp24::from_bits(t), Fp24::from_bits(d), {}, {}};
+      dut().set(dut().port("t_i"), t);
+      dut().set(dut().port("d_i"), d);
+      dut().set(dut().port("triangle_i"), triangle);
+      dut().set(dut().port("best_i"), best.pack());
+      if (const auto due = board.clock(nearer)) {
+        expect_port(dut().port("nearer_o"), *due ? 1 : 0, "nearer_o");
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace raplas

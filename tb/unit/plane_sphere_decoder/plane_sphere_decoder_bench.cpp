@@ -59,6 +59,33 @@ class Decoder : public testing::Test {
 TEST_F(Decoder, JoinsThePlaneSetsOfEveryPencilSize) { run(0); }
 TEST_F(Decoder, JoinsThemAcrossBubbles) { run(50); }
 
+TEST_F(Decoder, SetsWithoutPlanesChangeNothing) {
+  reset_dut();
+  dut().set(dut().port("rows_i"), kMaxRows);
+  dut().set(dut().port("columns_i"), kMaxColumns);
+  dut().set(dut().port("valid_i"), 1);
+  dut().set(dut().port("leaf_i"), 1);
+  const std::uint32_t all_rows = (1U << ROWS) - 1U;
+  const std::uint32_t all_columns = (1U << COLUMNS) - 1U;
+  const int sets = std::max(kMaxRows / ROWS, kMaxColumns / COLUMNS);
+  for (int set = sets; set < 16; ++set) {
+    dut().set(dut().port("set_i"), 0);
+    dut().set(dut().port("last_i"), 0);
+    dut().set(dut().port("row_flags_i"), all_rows);
+    dut().set(dut().port("column_flags_i"), all_columns);
+    dut().clock();
+    dut().set(dut().port("set_i"), static_cast<std::uint64_t>(set));
+    dut().set(dut().port("last_i"), 1);
+    dut().set(dut().port("row_flags_i"), static_cast<std::uint64_t>(set) & all_rows);
+    dut().set(dut().port("column_flags_i"), static_cast<std::uint64_t>(set) & all_columns);
+    dut().clock();
+    expect_port(dut().port("leaf_o"), 1, "leaf_o");
+    expect_port(dut().port("row_mask_o"), all_rows, "row_mask_o");
+    expect_port(dut().port("column_mask_o"), all_columns, "column_mask_o");
+  }
+  count_checked();
+}
+
 TEST_F(Decoder, MasksAreTheFlagsOfTheSetsInOrder) {
   reset_dut();
   dut().set(dut().port("rows_i"), 16);

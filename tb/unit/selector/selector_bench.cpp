@@ -100,6 +100,25 @@ class SelectorBench : public testing::Test {
 TEST_F(SelectorBench, GivesAPairEveryClockWithoutBubbles) { EXPECT_EQ(run(100, 100), 0); }
 TEST_F(SelectorBench, NeitherLosesNorRepeatsUnderStalls) { EXPECT_EQ(run(100, 40), 0); }
 TEST_F(SelectorBench, NeitherLosesNorRepeatsWhenLeavesAreRare) { run(5, 100); }
+TEST_F(SelectorBench, ForgetsItsLeafWhenReset) {
+  for (int clocks = 0; clocks < 20; ++clocks) {
+    reset_dut();
+    dut().set(dut().port("valid_i"), 1);
+    dut().set(dut().port("first_i"), 5);
+    dut().set(dut().port("count_i"), 3);
+    dut().set(dut().port("row_mask_i"), 0xffff);
+    dut().set(dut().port("column_mask_i"), 0xffff);
+    dut().set(dut().port("ready_i"), 1);
+    for (int k = 0; k < clocks; ++k) {
+      dut().clock();
+      expect_port(dut().port("valid_o"), 1, "valid_o");
+    }
+    dut().set(dut().port("rst_i"), 1);  // with a leaf at hand: it must not be taken either
+    dut().clock();
+    expect_port(dut().port("valid_o"), 0, "valid_o");
+  }
+  run(30, 70);
+}
 TEST_F(SelectorBench, NeitherLosesNorRepeatsUnderAnyPattern) { run(30, 70); }
 
 }  // namespace

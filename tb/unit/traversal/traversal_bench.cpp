@@ -12,6 +12,7 @@ namespace {
 const PortStage kStages[]{{"request_o", 0}, {"address_o", 0}, {"set_o", 0}, {"first_o", 0}, {"last_o", 0}};
 
 constexpr std::uint32_t kFirst = 0x81234;  // address of the root range
+constexpr std::uint32_t kAddresses = 1U << kIdBits;
 
 struct Node {
   bool inner = false;
@@ -42,26 +43,29 @@ class TraversalBench : public testing::Test {
  protected:
   /// Walks the tree with testers of `latency` clocks; leaves pile up as the selector takes `take_percent`.
   void walk(const std::vector<Node>& nodes, std::uint32_t root, int last_set, int latency,
-            unsigned take_percent) {
+            unsigned take_percent, std::uint32_t base = kFirst, int stop_after = 0) {
     std::mt19937 random(82);
     reset_dut();
     Traversal model;
     std::deque<SphereRequest> testers(static_cast<std::size_t>(latency));
     std::vector<int> seen(nodes.size());
     int leaves = 0;
-    dut().set(dut().port("root_first_i"), kFirst);
+    dut().set(dut().port("root_first_i"), base);
     dut().set(dut().port("root_count_i"), root);
     dut().set(dut().port("last_set_i"), static_cast<std::uint64_t>(last_set));
     for (int k = 0; k == 0 || k == 1 || !model.idle(); ++k) {
       ASSERT_LT(k, 2'000'000) << "does not end";
+      if (stop_after != 0 && k == stop_after) {
+        return;
+      }
       const SphereRequest leaving = testers.front();
       testers.pop_front();
       const bool decided = leaving.valid && leaving.last_set;
-      const Node node = decided ? nodes[leaving.address - kFirst] : Node{};
+      const Node node = decided ? nodes[leaving.address - base] : Node{};
       dut().set(dut().port("start_i"), k == 0 ? 1 : 0);
       dut().set(dut().port("decided_i"), decided ? 1 : 0);
       dut().set(dut().port("push_i"), node.inner ? 1 : 0);
-      const SphereRange children{node.first + kFirst, node.count};
+      const SphereRange children{node.first + base, node.count};
       dut().set(dut().port("push_first_i"), children.first);
       dut().set(dut().port("push_count_i"), node.count);
       dut().set(dut().port("leaves_i"), static_cast<std::uint64_t>(leaves));
@@ -79,11 +83,11 @@ class TraversalBench : public testing::Test {
             expect_port(dut().port("set_o"), static_cast<std::uint64_t>(request.set), "set_o"));
         ASSERT_NO_FATAL_FAILURE(expect_port(dut().port("first_o"), request.first_set ? 1 : 0, "first_o"));
         ASSERT_NO_FATAL_FAILURE(expect_port(dut().port("last_o"), request.last_set ? 1 : 0, "last_o"));
-        seen[request.address - kFirst] += request.last_set ? 1 : 0;
+        seen[request.address - base] += request.last_set ? 1 : 0;
       }
       testers.push_back(request);
       dut().clock();
-      model.clock(k == 0, {kFirst, root}, request, node.inner, children, decided);
+      model.clock(k == 0, {base, root}, request, node.inner, children, decided);
       const bool leaf = decided && !node.inner && random() % 2 == 0;
       leaves += (leaf ? 1 : 0) - (leaves > 0 && random() % 100 < take_percent ? 1 : 0);
       ASSERT_LE(leaves, kLeafFifoDepth);
@@ -97,6 +101,7 @@ class TraversalBench : public testing::Test {
 
 TEST_F(TraversalBench, GivesAFlatListASphereEachClock) { walk(std::vector<Node>(500), 500, 0, 15, 100); }
 TEST_F(TraversalBench, GivesAFlatListSetBySet) { walk(std::vector<Node>(100), 100, 3, 15, 100); }
+TEST_F(TraversalBench, GivesAFlatListInSixteenSets) { walk(std::vector<Node>(40), 40, 15, 15, 100); }
 TEST_F(TraversalBench, EndsAtOnceWithoutSpheres) { walk({}, 0, 0, 15, 100); }
 TEST_F(TraversalBench, WaitsForRoomInTheLeafQueue) { walk(std::vector<Node>(500), 500, 0, 15, 3); }
 
@@ -107,6 +112,71 @@ TEST_F(TraversalBench, WalksRandomTreesOnce) {
     walk(random_tree(random, 1, width, 8, 80), 1, static_cast<int>(random() % 4), 15,
          tree % 2 == 0 ? 100 : 30);
   }
+}
+
+TEST_F(TraversalBench, WalksTreesAnywhereInTheMemoryWithAnyNumberOfSets) {
+  std::mt19937 random(83);
+  for (int tree = 0; tree < 16; ++tree) {
+    const auto nodes = random_tree(random, 1, 1 + static_cast<std::uint32_t>(random() % 6), 6, 70);
+    const auto last = kAddresses - static_cast<std::uint32_t>(nodes.size());
+    const std::uint32_t base =
+        tree == 0 ? 0 : (tree == 1 ? last : static_cast<std::uint32_t>(random() % last));
+    walk(nodes, 1, tree, 15, 100, base);
+  }
+}
+
+TEST_F(TraversalBench, WalksRangesOfUpTo127Children) {
+  constexpr std::uint32_t kWidest = 127;
+  for (const std::uint32_t inner : {1U, 2U, 7U, 40U}) {  // only these have children: the stack's bound holds
+    std::vector<Node> nodes(kWidest);
+    for (std::uint32_t k = 0; k < inner; ++k) {
+      nodes[k * 3] = {true, static_cast<std::uint32_t>(nodes.size()), kWidest - k};
+      nodes.resize(nodes.size() + kWidest - k);
+    }
+    walk(nodes, kWidest, 0, 15, 100, 0xfedcb - 0xffff);
+  }
+}
+
+TEST_F(TraversalBench, StartsAfreshAfterAResetInTheMiddle) {
+  std::mt19937 random(84);
+  const auto nodes = random_tree(random, 3, 6, 6, 80);
+  for (int clocks = 2; clocks < 120; clocks += 3) {
+    walk(nodes, 3, clocks % 5, 15, 10, kFirst, clocks);
+    walk(std::vector<Node>(2), 2, 0, 15, 100);
+  }
+}
+
+TEST_F(TraversalBench, CountsEverySphereOfTheLongestList) {
+  const std::uint32_t spheres = Dut::simulator() == "ghdl" ? 3000 : kAddresses;
+  reset_dut();
+  const PortId start = dut().port("start_i");
+  const PortId request = dut().port("request_o");
+  const PortId address = dut().port("address_o");
+  const PortId idle = dut().port("idle_o");
+  const PortId decided = dut().port("decided_i");
+  for (const char* zero :
+       {"root_first_i", "last_set_i", "push_i", "push_first_i", "push_count_i", "leaves_i"}) {
+    dut().set(dut().port(zero), 0);
+  }
+  dut().set(dut().port("root_count_i"), spheres);
+  dut().set(decided, 0);
+  dut().set(start, 1);
+  dut().clock();
+  dut().set(start, 0);
+  for (std::uint32_t k = 0; k < spheres; ++k) {
+    dut().settle();
+    ASSERT_EQ(dut().get(request), 1U) << "sphere " << k;
+    ASSERT_EQ(dut().get(address), k);
+    dut().clock();
+    dut().set(decided, 1);  // each a clock after its request
+  }
+  count_checked(spheres);
+  dut().settle();
+  ASSERT_NO_FATAL_FAILURE(expect_port(request, 0, "request_o"));
+  ASSERT_NO_FATAL_FAILURE(expect_port(idle, 0, "idle_o"));
+  dut().clock();
+  dut().set(decided, 0);
+  ASSERT_NO_FATAL_FAILURE(expect_port(idle, 1, "idle_o"));
 }
 
 TEST_F(TraversalBench, StaysWithinTheStackOnTheDeepestTreeThatTheHostAccepts) {

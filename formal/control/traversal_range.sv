@@ -5,8 +5,8 @@
 // lies in a range that was given since the walk began (root or child) and the set is the pencil's; never
 // more than once, and never before its range was given.
 //
-// Assumption, beside those of traversal.sv: at most one range of a walk holds the chosen address, as in a
-// tree; the root range has at most 2^ID_BITS spheres.
+// Assumptions, beside those of traversal.sv: at most one range of a walk holds the chosen address, as in a
+// tree; the root range has at most 2^ID_BITS spheres; the stack doesn't overflow (traversal_stack.sv).
 //
 // `entry` and `top_was_good` as in traversal_stack.sv.
 
@@ -57,7 +57,7 @@ always @* begin
   if (given) assume (!received || idle_o);
   if (start_i) assume (root_count_i <= 1 << ID_BITS);
   assume (top_was_good);
-  assume (r_level < STACK_DEPTH);  // proved: traversal_stack.sv
+  assume (r_level <= STACK_DEPTH && !(write && r_level == STACK_DEPTH));
   if (started) begin
     exactly_once: assert (!idle_o || requests == (received && set <= last_set_i));
     at_most_once: assert (requests <= received);

@@ -77,5 +77,5 @@ always @* begin
     in_order: assert (older <= testing);
     levels: assert (stack_level_o == r_level);
   end
-  above: cover (started && r_level > STACK_WATERMARK && older != 0 && inner_left != 0);
+  high: cover (started && stack_level_o > STACK_WATERMARK + LEAF_FIFO_DEPTH);
 end

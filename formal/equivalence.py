@@ -9,7 +9,8 @@ pipeline  (units without feedback) outputs as functions of the inputs of earlier
 reset     (units with feedback) after a clock of rst_i = 1 in the same arbitrary state, and with the same words
           in memories, no outputs differ, whatever comes in (ABC's scorr and pdr)
 
-An output that means something only beside a valid bit is compared only then: MEANS. A multiplication is first
+An output that means something only beside a valid bit is compared only then: MEANS. Inputs keep to what the
+unit's page says of them: RANGES. A multiplication is first
 any function of its operands, the same in both netlists; only if that fails, gates.
 """
 import json
@@ -19,6 +20,7 @@ import subprocess
 
 EQUIVALENT, DIFFERENT, UNDECIDED = "equivalent", "different", "undecided"
 SECONDS = 120  # for each run of ABC
+MULTIPLIERS = 3  # as gates; with more of them ABC doesn't come to an end
 
 # unit -> output -> the output that says whether it means something
 MEANS = {
@@ -28,6 +30,11 @@ MEANS = {
     "plane_sphere_decoder": {"row_mask_o": "decided_o", "column_mask_o": "decided_o"},
     "selector": {"ray_o": "valid_o", "triangle_o": "valid_o"},
     "traversal": {"address_o": "request_o", "set_o": "request_o", "first_o": "request_o", "last_o": "request_o"},
+}
+
+# unit -> input -> least and greatest value
+RANGES = {
+    "plane_sphere_decoder": {"rows_i": (1, 16), "columns_i": (1, 16)},
 }
 
 FALSE, TRUE = 0, 1  # literals: twice the variable, plus 1 for its complement
@@ -201,8 +208,9 @@ class Netlist:
 class View:
     """A netlist's bits as literals. `unrolled`: a register is its input a clock earlier; otherwise a leaf."""
 
-    def __init__(self, netlist, aig, gates, unrolled=False, register=None, port=None, other=None):
+    def __init__(self, netlist, aig, gates, unrolled=False, register=None, port=None, other=None, moved=None):
         self.netlist, self.aig, self.gates, self.unrolled = netlist, aig, gates, unrolled
+        self.moved = moved  # literal of (memory, read port): it was read elsewhere a clock ago; None: never
         self.register = register or (lambda name, bit: aig.input(f"{name}.{bit}"))
         self.port = port or (lambda name, bit, age: aig.input(f"{name}[{bit}]@{-age}"))
         self.other = other  # the unit's view, when this is a mutant's
@@ -268,7 +276,9 @@ class View:
         entry = self.netlist.cells[cell]["parameters"]
         port = place // int(entry["WIDTH"], 2)
         if int(entry["RD_CLK_ENABLE"][::-1][port]):
-            return shared  # its register; addresses are compared
+            if self.moved is None:
+                return shared  # addresses are compared
+            return self.aig.choose(self.moved(cell, port), shared, self.aig.input(f"{cell}.elsewhere[{place}]"))
         width = int(entry["ABITS"], 2)
         addresses = self.other.netlist.pins(cell, "RD_ADDR")
         moved = self.aig.any(self.aig.differ(self.other(addresses[k]), values[k])
@@ -331,7 +341,7 @@ class Prover:
                     if verdict[0] == EQUIVALENT:
                         path.unlink(missing_ok=True)
                         return verdict
-                    if not any(c["type"] == "$mul" for c in mutant.cells.values()):
+                    if not 0 < sum(cell["type"] == "$mul" for cell in mutant.cells.values()) <= MULTIPLIERS:
                         break
             return verdict
         except subprocess.TimeoutExpired:
@@ -352,8 +362,23 @@ class Prover:
             different.append(bad)
         return aig.any(different)
 
-    def _memories(self, unit, mutant):
-        """Literal: 1 where a memory's inputs differ; addresses and data of a write only while it writes."""
+    def _allowed(self, view):
+        """Literal: 1 while the inputs keep their ranges."""
+        aig, result = view.aig, TRUE
+        for name, (least, greatest) in RANGES.get(self.unit, {}).items():
+            word = [view(bit) for bit in self.original.ports[name]["bits"]]
+            below, above = FALSE, FALSE  # from the low end: less than least, more than greatest
+            for k, bit in enumerate(word):
+                below = aig.either(bit ^ 1, below) if least >> k & 1 else aig.both(bit ^ 1, below)
+                above = aig.both(bit, above) if greatest >> k & 1 else aig.either(bit, above)
+            result = aig.both(result, aig.both(below ^ 1, above ^ 1))
+        return result
+
+    def _memories(self, unit, mutant, moves=None):
+        """Literal: 1 where a memory's inputs differ; addresses and data of a write only while it writes.
+
+        `moves` gets, for each clocked read port, whether it is read elsewhere; without it that counts too.
+        """
         aig, different = unit.aig, []
         for name, cell in self.original.cells.items():
             if cell["type"] != "$mem_v2":
@@ -368,7 +393,11 @@ class Prover:
             for port in range(int(parameters["RD_PORTS"], 2)):
                 if int(clocked[port]):
                     different += [aig.differ(*pairs[p][port]) for p in ("RD_EN", "RD_ARST", "RD_SRST")]
-                    different += [aig.differ(*pair) for pair in pairs["RD_ADDR"][port * width:(port + 1) * width]]
+                    elsewhere = aig.any(aig.differ(*pair) for pair in pairs["RD_ADDR"][port * width:(port + 1) * width])
+                    if moves is None:
+                        different.append(elsewhere)
+                    else:  # a word that is kept stays as wrong as it was
+                        moves[name, port] = pairs["RD_EN"][port][0], elsewhere
             bits = int(parameters["WIDTH"], 2)
             for port in range(int(parameters["WR_PORTS"], 2)):
                 enables = pairs["WR_EN"][port * bits:(port + 1) * bits]
@@ -414,7 +443,7 @@ class Prover:
         bad = [self._outputs(a, b), self._memories(a, b)]
         for name, k in self._registers(mutant):
             bad.append(aig.differ(a(self.original.pins(name, "D")[k]), b(mutant.pins(name, "D")[k])))
-        return self._solve(aig, aig.any(bad), path, "step")
+        return self._solve(aig, aig.both(aig.any(bad), self._allowed(a)), path, "step")
 
     def _pipeline(self, mutant, gates, path):
         aig = Aig()
@@ -434,12 +463,20 @@ class Prover:
                                                 aig.latch(f"{copy} {name}.{bit}"))
 
         a = View(self.original, aig, gates, register=register("unit"), port=port)
-        b = View(mutant, aig, gates, register=register("mutant"), port=port, other=a)
-        next_values = {started: TRUE}
+        b = View(mutant, aig, gates, register=register("mutant"), port=port, other=a,
+                 moved=lambda cell, place: aig.both(started, aig.latch(f"moved {cell} {place}")))
+        strayed = aig.latch("strayed")  # the inputs left their ranges
+        stray = aig.either(strayed, self._allowed(a) ^ 1)
+        next_values = {started: TRUE, strayed: stray}
         for copy, view in (("unit", a), ("mutant", b)):
             for name, k in self._registers(view.netlist):
                 next_values[aig.latch(f"{copy} {name}.{k}")] = view(view.netlist.pins(name, "D")[k])
-        bad = aig.both(started, aig.either(self._outputs(a, b), self._memories(a, b)))
+        moves = {}
+        bad = aig.both(started, aig.either(self._outputs(a, b), self._memories(a, b, moves)))
+        bad = aig.both(bad, stray ^ 1)
+        for (cell, place), (enable, elsewhere) in moves.items():
+            moved = aig.latch(f"moved {cell} {place}")
+            next_values[moved] = aig.choose(enable, moved, elsewhere)
         aig.write(path, bad, next_values)
         said = abc(path, f"scorr; pdr -T {SECONDS - 20}; print_status")
         if "Property proved" in said or "Status = 1" in said:

@@ -74,6 +74,40 @@ TEST(NearestHit, OrdersExactQuotientsAndTiesByTheLowerTriangle) {
   EXPECT_GT(*std::min_element(orders.begin(), orders.end()), kCases / 50) << "an order is hardly tested";
 }
 
+TEST(NearestHit, SeesASingleBitOfTheProducts) {
+  // (1 + 2^-i) * (1 + 2^-j) against 1 * (1 + 2^-i + 2^-j): they differ by 2^-(i+j)
+  OperandPairs pairs(93);
+  Scoreboard<bool> board(kMulStages);
+  for (unsigned i = 0; i < 16; ++i) {
+    for (unsigned j = 0; j < 16; ++j) {
+      for (unsigned k = 0; k < 4 && !testing::Test::HasFailure(); ++k) {
+        if (i == j) {
+          continue;
+        }
+        const auto exponent = [&pairs, k] {
+          return static_cast<std::uint32_t>(k < 2 ? 1 : pairs.between(1, 127)) << 16;
+        };
+        const std::uint32_t one = exponent();
+        const std::uint32_t other = exponent();
+        const std::uint32_t a = one | 1U << i;
+        const std::uint32_t b = other | 1U << j;
+        const std::uint32_t c = one;
+        const std::uint32_t d = other | 1U << i | 1U << j;
+        const bool nearer = k % 2 != 0;  // the smaller product is that of c and d
+        const ResultWord<Fp24> best{true, 0, Fp24::from_bits(nearer ? a : c), Fp24::from_bits(nearer ? d : b),
+                                    {},   {}};
+        dut().set(dut().port("t_i"), nearer ? c : a);
+        dut().set(dut().port("d_i"), nearer ? b : d);
+        dut().set(dut().port("triangle_i"), pairs.bits(1));
+        dut().set(dut().port("best_i"), best.pack());
+        if (const auto due = board.clock(nearer)) {
+          expect_port(dut().port("nearer_o"), *due ? 1 : 0, "nearer_o");
+        }
+      }
+    }
+  }
+}
+
 TEST(NearestHit, ComparesAllBitsOfBothTrianglesInATie) {
   OperandPairs pairs(92);
   Scoreboard<bool> board(kMulStages);

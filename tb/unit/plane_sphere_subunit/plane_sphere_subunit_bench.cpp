@@ -7,7 +7,7 @@ namespace raplas {
 namespace {
 
 using F = Fp24;
-const int kClocks = Dut::simulator() == "ghdl" ? 300 : 6'000;
+const int kClocks = Dut::simulator() == "ghdl" ? 300 : 12'000;
 constexpr std::size_t kPlanes = 8;
 const PortStage kFlagsStage{"row_flags_o", kTesterStages};
 const PortStage kColumnsStage{"column_flags_o", kTesterStages};
@@ -22,7 +22,8 @@ struct Due {
 
 class PlaneSphereSubunit : public testing::Test {
  protected:
-  void run(int bubble_percent) {
+  /// `rim`: each plane is moved to touch the sphere, but for the last bits; one in turn touches it exactly.
+  void run(int bubble_percent, bool rim) {
     OperandPairs pairs(31);
     reset_dut();
     Scoreboard<Due> board(kTesterStages);
@@ -32,8 +33,24 @@ class PlaneSphereSubunit : public testing::Test {
       SphereWord<F> sphere{{number(), number(), number()}, F::from_bits(number().magnitude()), false, 0, 0};
       PackedWord<kPlanes * 96> planes{};
       Due due{pairs.between(0, 99) >= bubble_percent, 0, pairs.bits(5)};
+      std::array<PlaneWord<F>, kPlanes> all{};
+      for (PlaneWord<F>& plane : all) {
+        plane = {{number(), number(), number()}, number()};
+        if (rim) {
+          const double dot = plane.normal.x.to_double() * sphere.centre.x.to_double() +
+                             plane.normal.y.to_double() * sphere.centre.y.to_double() +
+                             plane.normal.z.to_double() * sphere.centre.z.to_double();
+          const double radius = sphere.radius.to_double();
+          plane.offset = F::from_double((pairs.bits(1) != 0 ? radius : -radius) - dot);
+        }
+      }
+      if (rim) {
+        const F distance = plane_distance(all[static_cast<std::size_t>(k) % kPlanes], sphere.centre);
+        const std::uint32_t outside = distance.magnitude() > 0x010000U ? pairs.bits(1) : 0U;
+        sphere.radius = F::from_bits(distance.magnitude() - outside);
+      }
       for (std::size_t i = 0; i < kPlanes; ++i) {
-        const PlaneWord<F> plane{{number(), number(), number()}, number()};
+        const PlaneWord<F>& plane = all[i];
         const auto word = plane.pack();
         std::copy(word.begin(), word.end(), planes.begin() + static_cast<std::ptrdiff_t>(3 * i));
         due.flags |= (plane_meets_sphere(plane, sphere.centre, sphere.radius) ? 1U : 0U) << i;
@@ -61,8 +78,9 @@ class PlaneSphereSubunit : public testing::Test {
   }
 };
 
-TEST_F(PlaneSphereSubunit, TestsASphereEveryClock) { run(0); }
-TEST_F(PlaneSphereSubunit, KeepsItsPlaceAmongBubbles) { run(60); }
+TEST_F(PlaneSphereSubunit, TestsASphereEveryClock) { run(0, false); }
+TEST_F(PlaneSphereSubunit, KeepsItsPlaceAmongBubbles) { run(60, false); }
+TEST_F(PlaneSphereSubunit, IsExactAtTheRimOfEveryPlane) { run(0, true); }
 
 }  // namespace
 }  // namespace raplas

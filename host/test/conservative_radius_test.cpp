@@ -359,7 +359,8 @@ struct Price {
   std::uint64_t extra_planes = 0;  ///< that meet for the device only
   std::uint64_t spheres = 0;       ///< spheres that meet a row and a column of a pencil
   std::uint64_t extra_spheres = 0;
-  std::uint64_t lost = 0;  ///< planes that meet, but not for the device
+  std::uint64_t lost = 0;     ///< planes that meet, but not for the device
+  std::uint64_t outside = 0;  ///< words of scene and pencils that are not in the ranges of formal/bounds
   double percent_planes() const {
     return 100.0 * static_cast<double>(extra_planes) / static_cast<double>(planes);
   }
@@ -375,10 +376,31 @@ class Accountant final : public IntersectionDevice {
   void load(const DeviceScene& scene) override {
     scene_ = scene;
     memory_ = encode<F>(scene, {});
+    for (const SphereWord<F>& sphere : memory_.spheres) {
+      check(sphere.centre, 127.0 / 128);
+    }
+    for (const TriangleWord<F>& t : memory_.triangles) {
+      check(t.v0, 0.985);
+      check(t.e1, 1.97);
+      check(t.e2, 1.97);
+      check(t.n, 2.53);
+      price_.outside += glm::length(decode(t.e1) - decode(t.e2)) <= 1.97 ? 0U : 1U;
+    }
   }
 
   std::vector<Hit> trace(const Pencil& pencil) override {
     const PencilMemory<F> words = encode<F>(pencil);
+    constexpr double kUnit = 1 + 0x1p-17;
+    check(words.pencil.origin, 255.0 / 256);
+    for (const auto& planes : {words.rows, words.columns}) {
+      for (const PlaneWord<F>& plane : planes) {
+        check(plane.normal, kUnit);
+        check({plane.offset, {}, {}}, 255.0 / 256);
+      }
+    }
+    for (const Vec3<F>& direction : words.rays) {
+      check(direction, kUnit);
+    }
     std::vector<SphereRange> ranges{{scene_.root_first, scene_.root_count}};
     while (!ranges.empty()) {
       const SphereRange range = ranges.back();
@@ -415,6 +437,9 @@ class Accountant final : public IntersectionDevice {
     bool truly = false;
     bool here = false;
   };
+
+  /// Is the vector one of those that the theorems of formal/bounds are about?
+  void check(const Vec3<F>& v, double limit) { price_.outside += glm::length(decode(v)) <= limit ? 0U : 1U; }
 
   template <typename Words>
   Meets account(std::uint32_t id, const std::vector<Plane>& planes, const Words& words) {
@@ -468,6 +493,7 @@ TEST(ConservativeRadius, CostsFewFalseHitsInRealScenes) {
                  file.stem().string(), adder, price.planes, price.extra_planes, price.percent_planes(),
                  price.spheres, price.extra_spheres, price.percent_spheres());
       EXPECT_EQ(price.lost, 0U);
+      EXPECT_EQ(price.outside, 0U);
       EXPECT_GT(price.spheres, 5'000U);
       EXPECT_LT(price.percent_planes(), 5);
       EXPECT_LT(price.percent_spheres(), 5);

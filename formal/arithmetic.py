@@ -68,17 +68,23 @@ def abc(script):
 
 
 def counterexample(path, constants):
-    """The words of the first clock, in hexadecimal."""
-    words = {name: value for name, (value, _) in constants.items()}
-    for name, bit, value in re.findall(r"(\w+?)(?:\[(\d+)\])?_0+(?:@0)?=([01])", path.read_text()):
-        if name not in constants:
-            words[name] = words.get(name, 0) | int(value) << int(bit or 0)
-    if {"larger", "smaller", "exponent", "distance"} <= words.keys():  # operands of fp_add.sv
-        x = (words["larger"] >> 16) << 23 | words["exponent"] << 16 | words["larger"] & 0xFFFF
-        y = (words["smaller"] >> 16) << 23 | (words["exponent"] - words["distance"]) % 128 << 16 | words["smaller"] & 0xFFFF
-        a, b = (y, x) if words["swap"] else (x, y)
-        return f"a_i = {a:06x}, b_i = {b:06x}"
-    return ", ".join(f"{name} = {value:x}" for name, value in words.items() if name != "now")
+    """The operands, in hexadecimal, and other words that matter in later clocks."""
+    words = {}  # (clock, name) -> value
+    for name, bit, clock, value in re.findall(r"(\w+?)(?:\[(\d+)\])?_(\d+)(?:@0)?=([01])", path.read_text()):
+        words[int(clock), name] = words.get((int(clock), name), 0) | int(value) << int(bit or 0)
+    first = {name: value for (clock, name), value in words.items() if clock == 0}
+    first.update((name, value) for name, (value, _) in constants.items())
+    if {"larger", "smaller", "exponent", "distance"} <= first.keys():  # those of arithmetic/operands.svh
+        def word(field, exponent):
+            return (first[field] >> 16) << 23 | exponent % 128 << 16 | first[field] & 0xFFFF
+        x, y = word("larger", first["exponent"]), word("smaller", first["exponent"] - first["distance"])
+        a, b = (y, x) if first["swap"] else (x, y)
+        text = [f"a_i = {a:06x}, b_i = {b:06x}"]
+    else:
+        text = [f"{name} = {value:x}" for name, value in first.items() if name != "now"]
+    later = [f"{name} = {value:x} {clock} clocks later" for (clock, name), value in sorted(words.items())
+             if clock and value and name not in constants]
+    return ", ".join(text + later)
 
 
 QUICK_DISTANCES = (0, 1, 2, 17, 18, 19, 127)

@@ -404,8 +404,8 @@ void measure(const char* variant, const char* suffix, std::uint64_t seed, Figure
                 worst.error[k], ratio);
     EXPECT_LE(ratio, 1) << name;
     EXPECT_GT(ratio, 0.25) << name << ": the cases are too easy, or the bound is far too large";
-    figures.add("bound." + name + suffix + ".proven", bound, "normalised");
-    figures.add("bound." + name + suffix + ".worst_seen", worst.error[k], "normalised");
+    figures.add("bound." + name + suffix + ".proven", bound, "scene units");
+    figures.add("bound." + name + suffix + ".worst_seen", worst.error[k], "scene units");
     figures.add("bound." + name + suffix + ".ratio", ratio, "of the bound");
   }
   std::printf("%s %s: checked %llu cases, %.1f M/s\n", Datapath::kFile, variant,

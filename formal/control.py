@@ -2,18 +2,16 @@
 
 The properties of formal/control/NAME.sv are put inside the exported unit, before its endmodule, as a
 SystemVerilog bind would do: they see its ports and, for the invariants, its registers. Yosys' `sat`
-(MiniSat) then proves the assertions for all inputs and for any number of clocks by k-induction:
-
-  base       in the first K clocks, reset being the first, they hold;
-  induction  from any state and inputs, if they hold in K clocks running, they hold in the next.
+(MiniSat) then proves the assertions for all inputs and for any number of clocks by induction: they hold
+in the first clock, and if they hold in any state, reachable or not, they hold in the next. The first
+clock is the reset; all registers are free before it.
 
 If the induction fails, a counterexample is sought in the first DEPTH clocks. Each `cover` is a case of
-its own: a trace must reach it, so the assumptions are not contradictory.
+its own: a trace must reach it, so the assumptions are not contradictory. ": assert " and ": cover ", each
+with a label, stand for nothing else in those files.
 """
 import collections
 import dataclasses
-import functools
-import pathlib
 import re
 import shutil
 import subprocess
@@ -34,38 +32,48 @@ class Model:
     generics: dict = dataclasses.field(default_factory=dict)
     constants: dict = dataclasses.field(default_factory=dict)  # other values in raplas_constants.vhd
     properties: tuple = ()  # file names, if not the unit's
-    unseen: tuple = ()     # outputs that the properties don't look at: what only they need is cut off
-    k: int = 1
-    depth: int = 12        # clocks in search of a counterexample
-    cover: int = 0         # clocks in which every cover is reached; 0: not a case
-    quick: bool = True
+    unseen: tuple = ()      # outputs that the properties don't look at: what only they need is cut off
+    depth: int = 12         # clocks in search of a counterexample
+    cover: int = 0          # clocks in which every cover is reached; 0: no such cases
+    quick: bool = False     # its assertions; covers never are
 
 
-SMALL = {"STACK_DEPTH": 8, "STACK_DEPTH_LOG2": 3, "STACK_WATERMARK": 2, "LEAF_FIFO_DEPTH": 2, "LEAF_FIFO_DEPTH_LOG2": 1,
-         "ID_BITS": 5, "COUNT_BITS": 3}
-WALK = dict(unit="traversal", properties=("traversal",))
-STACK = dict(unit="traversal", properties=("traversal", "traversal_stack"))
-RANGE = dict(unit="traversal", properties=("traversal", "traversal_range"))
-HITS = dict(unit="result_memory", unseen=("best_o", "host_data_o"))
+SMALL = {"STACK_DEPTH": 8, "STACK_DEPTH_LOG2": 3, "STACK_WATERMARK": 2, "LEAF_FIFO_DEPTH": 2,
+         "LEAF_FIFO_DEPTH_LOG2": 1, "ID_BITS": 5, "COUNT_BITS": 3}
+FEW_RAYS = {"LINE_BITS": 2, "MAX_ROWS": 4, "MAX_COLUMNS": 4}
+WALK = {"unit": "traversal", "properties": ("traversal",)}
+STACK = {"unit": "traversal", "properties": ("traversal", "traversal_stack")}
+RANGE = {"unit": "traversal", "properties": ("traversal", "traversal_range")}
+HITS = {"unit": "result_memory", "unseen": ("best_o", "host_data_o")}
+
+
+def fifo(width, depth_log2):
+    return {"unit": "fifo", "generics": {"WIDTH": width, "DEPTH_LOG2": depth_log2}}
+
+
+def decoder(rows, columns):
+    return {"unit": "plane_sphere_decoder", "generics": {"NUM_ROWS": rows, "NUM_COLUMNS": columns}}
+
+
 MODELS = (
-    Model("control.fifo", "depth2", "fifo", {"WIDTH": 2, "DEPTH_LOG2": 1}),
-    Model("control.fifo", "depth4", "fifo", {"WIDTH": 2, "DEPTH_LOG2": 2}, cover=8),
-    Model("control.fifo", "depth8", "fifo", {"WIDTH": 2, "DEPTH_LOG2": 3}),
-    Model("control.fifo", "pairs", "fifo", {"WIDTH": 28, "DEPTH_LOG2": 4}),
-    Model("control.fifo", "leaves", "fifo", {"WIDTH": 59, "DEPTH_LOG2": 5}),
-    Model("control.selector", "all", "selector", cover=10),
-    Model("control.pair_issue", "all", "pair_issue", cover=10),
-    Model("control.decoder", "1x1", "plane_sphere_decoder", {"NUM_ROWS": 1, "NUM_COLUMNS": 1}, cover=6),
-    Model("control.decoder", "4x4", "plane_sphere_decoder", {"NUM_ROWS": 4, "NUM_COLUMNS": 4}),
-    Model("control.decoder", "2x16", "plane_sphere_decoder", {"NUM_ROWS": 2, "NUM_COLUMNS": 16}),
-    Model("control.walk", "small", **WALK, constants=SMALL, cover=12),
+    Model("control.fifo", "depth2", **fifo(2, 1), quick=True),
+    Model("control.fifo", "depth4", **fifo(2, 2), quick=True, cover=8),
+    Model("control.fifo", "depth8", **fifo(2, 3)),
+    Model("control.fifo", "pairs", **fifo(28, 4)),
+    Model("control.fifo", "leaves", **fifo(59, 5)),
+    Model("control.selector", "all", "selector", quick=True, cover=10),
+    Model("control.pair_issue", "all", "pair_issue", quick=True, cover=10),
+    Model("control.decoder", "1x1", **decoder(1, 1), cover=6),
+    Model("control.decoder", "4x4", **decoder(4, 4), quick=True),
+    Model("control.decoder", "2x16", **decoder(2, 16)),
+    Model("control.walk", "small", **WALK, constants=SMALL, quick=True, cover=12),
     Model("control.walk", "real", **WALK),
-    Model("control.stack", "small", **STACK, constants=SMALL, cover=14),
+    Model("control.stack", "small", **STACK, constants=SMALL, quick=True, cover=14),
     Model("control.stack", "real", **STACK),
-    Model("control.range", "small", **RANGE, constants=SMALL, cover=14),
+    Model("control.range", "small", **RANGE, constants=SMALL, quick=True, cover=14),
     Model("control.range", "real", **RANGE),
-    Model("control.ram", "8x2", "ram", {"WIDTH": 2, "ADDRESS_BITS": 3}, cover=6),
-    Model("control.result_memory", "small", **HITS, constants={"LINE_BITS": 2, "MAX_ROWS": 4, "MAX_COLUMNS": 4}, cover=12),
+    Model("control.ram", "8x2", "ram", {"WIDTH": 2, "ADDRESS_BITS": 3}, quick=True, cover=6),
+    Model("control.result_memory", "small", **HITS, constants=FEW_RAYS, quick=True, cover=12),
     Model("control.result_memory", "real", **HITS),
     Model("control.event_counters", "all", "event_counters", cover=3),
 )
@@ -97,7 +105,8 @@ def build(model, folder, rtl, cover=None):
         rtl = with_constants(rtl, model.constants, folder / "rtl")
     text = properties(model)
     if cover:
-        text = re.sub(rf"\b{cover}: cover \((.*)\);", rf"{cover}: assert (!(\1));", text.replace(": assert ", ": cover "))
+        text = text.replace(": assert ", ": cover ")
+        text = re.sub(rf"\b{cover}: cover \((.*)\);", rf"{cover}: assert (!(\1));", text)
     generics = [f"{name}={value}" for name, value in model.generics.items()]
     body, end = export(model.unit, folder, generics, rtl=rtl).read_text().rsplit("endmodule", 1)
     parameters = {**constants_of(rtl), **model.generics}
@@ -107,13 +116,17 @@ def build(model, folder, rtl, cover=None):
                      + f"{text}endmodule{end}")
     netlist = folder / "model.il"
     unseen = "".join(f"delete -output {model.unit}/{name}; " for name in model.unseen)
-    yosys(f"read_verilog -formal -sv {bound}; prep -flatten -nordff -top {model.unit}; {unseen}opt_clean; chformal -cover -remove; memory_map; "
-          f"opt -full; dffunmap; opt_clean; check -assert; write_rtlil {netlist}")
+    yosys(f"read_verilog -formal -sv {bound}; prep -flatten -nordff -top {model.unit}; {unseen}opt_clean; "
+          f"chformal -cover -remove; memory_map; opt -full; dffunmap; opt_clean; check -assert; write_rtlil {netlist}")
+    written, kept = text.count(": assert "), netlist.read_text().count("cell $assert ")
+    if written != kept or not kept:
+        raise RuntimeError(f"{bound}: {written} assertions, {kept} of them in the netlist")
     return netlist
 
 
 def properties(model):
-    return "".join((FORMAL / "control" / f"{name}.sv").read_text() for name in model.properties or (model.unit,))
+    names = model.properties or (model.unit,)
+    return "".join((FORMAL / "control" / f"{name}.sv").read_text() for name in names)
 
 
 def yosys(script):
@@ -125,7 +138,8 @@ def yosys(script):
 
 def prove(netlist, *options):
     """What the SAT solver prints."""
-    return yosys(f"read_rtlil {netlist}; sat -set-assumes -prove-asserts -show-all -tempinduct {' '.join(map(str, options))}")
+    options = " ".join(options)
+    return yosys(f"read_rtlil {netlist}; sat -set-assumes -prove-asserts -show-all -tempinduct {options}")
 
 
 def clocks(output):
@@ -137,11 +151,11 @@ def clocks(output):
 
 
 def counterexample(output, model, netlist):
-    """The assertions that fail in the last clock; the ports, a line a clock, in hexadecimal; then all else."""
+    """What fails in the last clock; the ports, a line a clock, in hexadecimal; what stands beside them."""
     rows, cells = clocks(output), netlist.read_text()
     last = rows[-1]
-    failing = [name for name, check, enable
-               in re.findall(r"cell \$assert \\(\w+)\n +connect \\A \\?(\S+)\n +connect \\EN \\?(\S+)\n", cells)
+    assertions = r"cell \$assert \\(\w+)\n +connect \\A \\?(\S+)\n +connect \\EN \\?(\S+)\n"
+    failing = [name for name, check, enable in re.findall(assertions, cells)
                if last.get(check) == "0" and last.get(enable, "1") == "1"]
     lines = [line.strip() for line in properties(model).splitlines()
              if line.strip().startswith(tuple(f"{name}: " for name in failing))]
@@ -149,7 +163,7 @@ def counterexample(output, model, netlist):
              re.findall(rf"(?m)^  wire (?:width \d+ )?{way} \d+ \\(\w+)$", cells) if name != "clk_i"]
 
     def show(row, names):
-        return " ".join(f"{name}={int(row[name], 2):x}" for name in names if set(row.get(name, "x")) <= set("01"))
+        return " ".join(f"{name}={int(row[name], 2):x}" for name in names if "x" not in row.get(name, "x"))
 
     ghosts = [name for name in last if re.fullmatch(r"[a-z]\w+", name) and name not in ports
               and not re.match(r"n\d+_|rin$|clk_i", name)]
@@ -159,14 +173,14 @@ def counterexample(output, model, netlist):
 
 def decide(model, netlist):
     path = netlist()
-    output = prove(path, f"-maxsteps {model.k}")
+    output = prove(path, "-maxsteps 1")
     if "Induction step proven: SUCCESS!" in output:
         return Result(PROVED)
     if REFUTATION not in output:
         output = prove(path, f"-tempinduct-baseonly -maxsteps {model.depth}")
     if REFUTATION in output:
         return Result(REFUTED, counterexample(output, model, path))
-    step = prove(path, f"-tempinduct-inductonly -maxsteps {model.k}")
+    step = prove(path, "-tempinduct-inductonly -maxsteps 1")
     return Result(UNDECIDED, f"no counterexample in {model.depth} clocks, but the induction fails\n    "
                              f"{counterexample(step, model, path)}")
 
@@ -175,7 +189,7 @@ def reached(model, netlist):
     """A trace to a cover: a counterexample of its negation."""
     if REFUTATION in prove(netlist(), f"-tempinduct-baseonly -maxsteps {model.cover}"):
         return Result(PROVED)
-    return Result(REFUTED, f"not reached in {model.cover} clocks, so the assumptions contradict each other or the unit")
+    return Result(REFUTED, f"not reached in {model.cover} clocks: do the assumptions contradict each other?")
 
 
 def covers(model):
@@ -185,15 +199,13 @@ def covers(model):
 def cases(work, rtl):
     made = []
     for model in MODELS:
-        folder = work / model.theorem / model.name
+        def add(name, check, quick, *cover, model=model):
+            netlist = Once(lambda: build(model, work / model.theorem / name, rtl, *cover))
+            made.append(Case(model.theorem, name, lambda: check(model, netlist), quick))
 
-        def add(name, check, *arguments):
-            netlist = Once(functools.partial(build, model, folder / name, rtl, *arguments))
-            made.append(Case(model.theorem, name, functools.partial(check, model, netlist), model.quick))
-
-        add(model.name, decide)
+        add(model.name, decide, model.quick)
         for cover in covers(model):
-            add(f"{model.name}.reached.{cover}", reached, cover)
+            add(f"{model.name}.reached.{cover}", reached, False, cover)
     return made
 
 

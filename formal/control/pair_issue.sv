@@ -43,4 +43,5 @@ reg [HAZARD_CLOCKS-2:0] recent;
 localparam ENTRY = 2 * LINE_BITS + 1;
 always @*
   for (k = 0; k < HAZARD_CLOCKS - 1; k = k + 1)
-    recent[k] = history[(HAZARD_CLOCKS-2-k)*ENTRY] && history[(HAZARD_CLOCKS-2-k)*ENTRY+1 +: 2*LINE_BITS] == ray;
+    recent[k] = history[(HAZARD_CLOCKS-2-k)*ENTRY]
+                && history[(HAZARD_CLOCKS-2-k)*ENTRY+1 +: 2*LINE_BITS] == ray;

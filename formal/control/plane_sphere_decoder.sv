@@ -30,7 +30,8 @@ always @(posedge clk_i) begin
     rows     <= rows_i;
     columns  <= columns_i;
     row_met  <= row_here ? row_flags_i[row % NUM_ROWS] && row < rows_i : first ? 0 : row_met;
-    column_met <= column_here ? column_flags_i[column % NUM_COLUMNS] && column < columns_i : first ? 0 : column_met;
+    column_met <= column_here ? column_flags_i[column % NUM_COLUMNS] && column < columns_i
+                              : first ? 0 : column_met;
   end
   if (rst_i) begin
     between  <= 1;

@@ -92,6 +92,9 @@ wire [MAX_ROWS-1:0]    r_row_mask, r_rows_left;
 wire [MAX_COLUMNS-1:0] r_column_mask, r_columns_left;
 wire [ID_BITS:0]       r_active_triangle;
 assign {r_columns_left, r_rows_left, r_column_mask, r_row_mask, r_left, r_active_triangle} = r;
+generate
+  if ($bits(r) != 1 + ID_BITS + COUNT_BITS + 2 * (MAX_ROWS + MAX_COLUMNS)) layout_of_reg_t_is_another refused();
+endgenerate
 
 // the first pair of the leaf: bit k of a mask is its lowest
 reg [LINE_BITS-1:0] lowest_row, lowest_column;

@@ -83,3 +83,6 @@ wire [SET_BITS-1:0]       r_set;
 wire [STACK_DEPTH_LOG2:0] r_level;
 wire [TESTED_BITS-1:0]    r_under_test;
 assign {r_under_test, r_level, r_set, r_left, r_address, r_active} = r;
+generate
+  if ($bits(r) != 2 + 2 * ID_BITS + SET_BITS + STACK_DEPTH_LOG2 + 1 + TESTED_BITS) layout_of_reg_t_is_another refused();
+endgenerate

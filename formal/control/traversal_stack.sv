@@ -75,7 +75,6 @@ always @* begin
                           || r_level + older + inner_left + children <= STACK_DEPTH);
     budgets: assert (children <= BUDGET && (inner_left == 0 || inner_left + children <= BUDGET + 1));
     in_order: assert (older <= testing);
-    levels: assert (stack_level_o == r_level);
   end
   high: cover (started && stack_level_o > STACK_WATERMARK + LEAF_FIFO_DEPTH);
 end

@@ -10,7 +10,6 @@ If the induction fails, a counterexample is sought in the first DEPTH clocks. Ea
 its own: a trace must reach it, so the assumptions are not contradictory. ": assert " and ": cover ", each
 with a label, stand for nothing else in those files.
 """
-import collections
 import dataclasses
 import re
 import shutil
@@ -209,4 +208,6 @@ def cases(work, rtl):
     return made
 
 
-EXPECTED = collections.Counter(model.theorem for model in MODELS for _ in [model, *covers(model)])
+EXPECTED = {"control.fifo": 6, "control.selector": 3, "control.pair_issue": 2, "control.decoder": 5, "control.walk": 5,
+            "control.stack": 6, "control.range": 7, "control.ram": 2, "control.result_memory": 4,
+            "control.event_counters": 2}

@@ -1,7 +1,8 @@
 """Prove that a mutant is no mutant: that no input can tell it from the unit.
 
-Both netlists become one and-inverter graph in which equal nodes are shared, with one output that is 1 where
-they differ; ABC must show that it never is. Three ways, each enough by itself:
+The netlist with all mutants is read twice, with port mutant_i at 0 and at the mutant's number, into one
+and-inverter graph in which equal nodes are shared, with one output that is 1 where the two differ; ABC must
+show that it never is. Three ways, each enough by itself:
 
 step      registers and memories hold the same in both: then so do all outputs and all next values
 pipeline  (units without feedback) outputs as functions of the inputs of earlier clocks, all registers
@@ -17,9 +18,12 @@ import json
 import pathlib
 import re
 import subprocess
+import threading
 
 EQUIVALENT, DIFFERENT, UNDECIDED = "equivalent", "different", "undecided"
 SECONDS = 120  # for each run of ABC
+CONFLICTS = 20000  # of plain SAT, before ABC's iprove
+CLOCKS = 100  # more than any pipeline has stages
 MULTIPLIERS = 3  # as gates; with more of them ABC doesn't come to an end
 
 # unit -> output -> the output that says whether it means something
@@ -35,6 +39,7 @@ MEANS = {
 # unit -> input -> least and greatest value
 RANGES = {
     "plane_sphere_decoder": {"rows_i": (1, 16), "columns_i": (1, 16)},
+    "traversal": {"push_count_i": (1, 127)},
 }
 
 FALSE, TRUE = 0, 1  # literals: twice the variable, plus 1 for its complement
@@ -173,43 +178,16 @@ class Netlist:
     def pins(self, cell, port):
         return self.cells[cell]["connections"].get(port, [])
 
-    def feedback(self):
-        """Whether a register can reach itself, or there is a memory."""
-        if any(cell["type"].startswith("$mem") for cell in self.cells.values()):
-            return True
-        state = {}
-        for start in self.cells:
-            stack = [(start, iter(self._sources(start)))] if start not in state else []
-            state.setdefault(start, "open")
-            while stack:
-                cell, sources = stack[-1]
-                for source in sources:
-                    if state.get(source) == "open":
-                        return True
-                    if source not in state:
-                        state[source] = "open"
-                        stack.append((source, iter(self._sources(source))))
-                        break
-                else:
-                    state[cell] = "done"
-                    stack.pop()
-        return False
 
-    def _sources(self, cell):
-        entry = self.cells[cell]
-        for port, direction in entry["port_directions"].items():
-            if direction == "input":
-                for bit in entry["connections"][port]:
-                    driver = self.driver.get(bit)
-                    if driver and driver[0] != "input":
-                        yield driver[1]
+class Endless(Exception):
+    """A register can reach itself."""
 
 
 class View:
     """A netlist's bits as literals. `unrolled`: a register is its input a clock earlier; otherwise a leaf."""
 
-    def __init__(self, netlist, aig, gates, unrolled=False, register=None, port=None, other=None, moved=None):
-        self.netlist, self.aig, self.gates, self.unrolled = netlist, aig, gates, unrolled
+    def __init__(self, netlist, mutant, aig, gates, unrolled=False, register=None, port=None, other=None, moved=None):
+        self.netlist, self.mutant, self.aig, self.gates, self.unrolled = netlist, mutant, aig, gates, unrolled
         self.moved = moved  # literal of (memory, read port): it was read elsewhere a clock ago; None: never
         self.register = register or (lambda name, bit: aig.input(f"{name}.{bit}"))
         self.port = port or (lambda name, bit, age: aig.input(f"{name}[{bit}]@{-age}"))
@@ -239,7 +217,14 @@ class View:
         kind, cell = driver[:2]
         pins = self.netlist.pins
         if kind in FLIP_FLOPS:
+            if age > CLOCKS:
+                raise Endless
             return [(pins(cell, "D")[driver[3]], age + 1)] if self.unrolled else []
+        if kind == "$_MUX_":  # of other mutants: only one side
+            select = (pins(cell, "S")[0], age)
+            value = self.known.get(select)
+            sides = [(pins(cell, port)[0], age) for port in "AB"]
+            return [select] if value is None else [sides[value]] if value in (FALSE, TRUE) else sides + [select]
         if kind == "$mem_v2":
             return [(b, age) for b in pins(cell, "RD_ADDR")] if self.other else []
         if kind == "$mul":
@@ -253,10 +238,14 @@ class View:
         if driver is None:
             return TRUE if bit == "1" else FALSE
         if driver[0] == "input":
+            if driver[1] == "mutant_i":
+                return self.mutant >> driver[2] & 1
             return self.port(driver[1], driver[2], age)
         kind, cell, port, place = driver
         if kind in FLIP_FLOPS:
             return values[0] if self.unrolled else self.register(cell, place)
+        if len(values) == 1 and kind == "$_MUX_":
+            return values[0]
         if kind == "$mem_v2":
             return self._read(cell, place, values)
         if kind == "$mul":
@@ -307,33 +296,43 @@ class Prover:
     """Decides about mutants of one bench's netlist."""
 
     def __init__(self, bench, row, folder, work):
-        self.unit, self.netlist, self.work = row.unit, folder / "netlist.il", work
+        self.unit, self.folder, self.work = row.unit, folder, work
         self.means = MEANS.get(row.unit, {})
         work.mkdir(parents=True, exist_ok=True)
-        self.original = None
+        self.netlist, self.lock = None, threading.Lock()
 
-    def _read(self, command, stem):
-        """The netlist, with the mutation if there is one, as gates and plain registers."""
+    def _read(self):
+        """The netlist with all mutants, as gates and plain registers."""
         whole = "t:$mem_v2 %d t:$mul %d t:$dff %d t:$_DFF_P_ %d"
-        path = self.work / f"{stem}.json"
-        script = f"read_ilang {self.netlist}; {command}; dffunmap; opt_clean; "
+        path = self.work / "netlist.json"
+        script = f"read_ilang {self.folder / 'netlist.il'}; script {self.folder / 'mutants.ys'}; dffunmap; opt_clean; "
         script += "; ".join([f"techmap t:* {whole}"] * 6)
         done = subprocess.run(["yosys", "-q", "-Q", "-T", "-p", f"{script}; opt_clean; write_json {path}"],
                               capture_output=True, text=True)
         if done.returncode:
             raise RuntimeError(f"yosys: {done.stdout[-500:]}{done.stderr[-500:]}")
-        netlist = Netlist(path, self.unit)
-        path.unlink()
-        return netlist
-
-    def decide(self, command, number):
-        """[verdict, by which proof or why not]"""
+        self.netlist = Netlist(path, self.unit)
         try:
-            if self.original is None:
-                self.original = self._read("", f"unit{number}")
-            mutant = self._read(command, f"mutant{number}")
-            path = self.work / f"{number}.aig"
-            ways = [self._step, self._reset if self.original.feedback() else self._pipeline]
+            if any(cell["type"] == "$mem_v2" for cell in self.netlist.cells.values()):
+                raise Endless
+            view = View(self.netlist, 0, Aig(), False, unrolled=True)
+            for port in self.netlist.ports.values():
+                for bit in port["bits"]:
+                    view(bit)
+            self.feedback = False
+        except Endless:
+            self.feedback = True
+        self.multipliers = sum(cell["type"] == "$mul" for cell in self.netlist.cells.values())
+        path.unlink()
+
+    def decide(self, mutant):
+        """[verdict, by which proof or why not] of the mutant of this number."""
+        try:
+            with self.lock:
+                if self.netlist is None:
+                    self._read()
+            path = self.work / f"{mutant}.aig"
+            ways = [self._step, self._reset if self.feedback else self._pipeline]
             verdict = [UNDECIDED, ""]
             for way in ways:
                 for gates in (False, True):
@@ -341,24 +340,25 @@ class Prover:
                     if verdict[0] == EQUIVALENT:
                         path.unlink(missing_ok=True)
                         return verdict
-                    if not 0 < sum(cell["type"] == "$mul" for cell in mutant.cells.values()) <= MULTIPLIERS:
+                    if not 0 < self.multipliers <= MULTIPLIERS:
                         break
             return verdict
         except subprocess.TimeoutExpired:
             return [UNDECIDED, f"not within {SECONDS} s"]
+        except Endless:
+            return [UNDECIDED, "the mutant has feedback"]
         except (RuntimeError, KeyError) as error:
             return [UNDECIDED, f"{type(error).__name__}: {error}"]
 
     def _outputs(self, unit, mutant):
         """Literal: 1 where an output that means something differs."""
         aig, different = unit.aig, []
-        for name, port in self.original.ports.items():
+        for name, port in self.netlist.ports.items():
             if port["direction"] != "output":
                 continue
-            bad = aig.any(aig.differ(unit(a), mutant(b))
-                          for a, b in zip(port["bits"], mutant.netlist.ports[name]["bits"]))
+            bad = aig.any(aig.differ(unit(bit), mutant(bit)) for bit in port["bits"])
             if name in self.means:
-                bad = aig.both(bad, unit(self.original.ports[self.means[name]]["bits"][0]))
+                bad = aig.both(bad, unit(self.netlist.ports[self.means[name]]["bits"][0]))
             different.append(bad)
         return aig.any(different)
 
@@ -366,7 +366,7 @@ class Prover:
         """Literal: 1 while the inputs keep their ranges."""
         aig, result = view.aig, TRUE
         for name, (least, greatest) in RANGES.get(self.unit, {}).items():
-            word = [view(bit) for bit in self.original.ports[name]["bits"]]
+            word = [view(bit) for bit in self.netlist.ports[name]["bits"]]
             below, above = FALSE, FALSE  # from the low end: less than least, more than greatest
             for k, bit in enumerate(word):
                 below = aig.either(bit ^ 1, below) if least >> k & 1 else aig.both(bit ^ 1, below)
@@ -380,7 +380,7 @@ class Prover:
         `moves` gets, for each clocked read port, whether it is read elsewhere; without it that counts too.
         """
         aig, different = unit.aig, []
-        for name, cell in self.original.cells.items():
+        for name, cell in self.netlist.cells.items():
             if cell["type"] != "$mem_v2":
                 continue
             parameters = cell["parameters"]
@@ -409,17 +409,19 @@ class Prover:
                               for (a, _), pair in zip(enables, pairs["WR_DATA"][port * bits:(port + 1) * bits])]
         return aig.any(different)
 
-    def _registers(self, mutant):
-        """(cell, bit) of all registers of the unit, without those that nothing reads in the mutant."""
-        for name, cell in self.original.cells.items():
-            if cell["type"] in FLIP_FLOPS and name in mutant.cells:
-                yield from ((name, k) for k in range(len(cell["connections"]["D"])))
+    def _registers(self):
+        """(cell, place, the bit that it takes next) of all registers."""
+        for name, cell in self.netlist.cells.items():
+            if cell["type"] in FLIP_FLOPS:
+                yield from ((name, k, bit) for k, bit in enumerate(cell["connections"]["D"]))
 
     def _solve(self, aig, bad, path, way):
         if bad == FALSE:
             return [EQUIVALENT, way]
         names = aig.write(path, bad)
-        said = abc(path, f"strash; fraig; iprove; write_cex {path.with_suffix('.cex')}")
+        said = abc(path, f"strash; sat -C {CONFLICTS}; write_cex {path.with_suffix('.cex')}")
+        if "UNDECIDED" in said:
+            said = abc(path, f"strash; fraig; iprove; write_cex {path.with_suffix('.cex')}")
         if "UNSATISFIABLE" in said:
             return [EQUIVALENT, way]
         return [UNDECIDED, f"{way}: {self._counterexample(names, path)}"]
@@ -438,16 +440,15 @@ class Prover:
 
     def _step(self, mutant, gates, path):
         aig = Aig()
-        a = View(self.original, aig, gates)
-        b = View(mutant, aig, gates, other=a)
+        a = View(self.netlist, 0, aig, gates)
+        b = View(self.netlist, mutant, aig, gates, other=a)
         bad = [self._outputs(a, b), self._memories(a, b)]
-        for name, k in self._registers(mutant):
-            bad.append(aig.differ(a(self.original.pins(name, "D")[k]), b(mutant.pins(name, "D")[k])))
+        bad += [aig.differ(a(bit), b(bit)) for _, _, bit in self._registers()]
         return self._solve(aig, aig.both(aig.any(bad), self._allowed(a)), path, "step")
 
     def _pipeline(self, mutant, gates, path):
         aig = Aig()
-        a, b = (View(netlist, aig, gates, unrolled=True) for netlist in (self.original, mutant))
+        a, b = (View(self.netlist, number, aig, gates, unrolled=True) for number in (0, mutant))
         return self._solve(aig, self._outputs(a, b), path, "pipeline")
 
     def _reset(self, mutant, gates, path):
@@ -462,15 +463,15 @@ class Prover:
             return lambda name, bit: aig.choose(started, aig.input(f"start {name}.{bit}"),
                                                 aig.latch(f"{copy} {name}.{bit}"))
 
-        a = View(self.original, aig, gates, register=register("unit"), port=port)
-        b = View(mutant, aig, gates, register=register("mutant"), port=port, other=a,
+        a = View(self.netlist, 0, aig, gates, register=register("unit"), port=port)
+        b = View(self.netlist, mutant, aig, gates, register=register("mutant"), port=port, other=a,
                  moved=lambda cell, place: aig.both(started, aig.latch(f"moved {cell} {place}")))
         strayed = aig.latch("strayed")  # the inputs left their ranges
         stray = aig.either(strayed, self._allowed(a) ^ 1)
         next_values = {started: TRUE, strayed: stray}
         for copy, view in (("unit", a), ("mutant", b)):
-            for name, k in self._registers(view.netlist):
-                next_values[aig.latch(f"{copy} {name}.{k}")] = view(view.netlist.pins(name, "D")[k])
+            for name, k, bit in self._registers():
+                next_values[aig.latch(f"{copy} {name}.{k}")] = view(bit)
         moves = {}
         bad = aig.both(started, aig.either(self._outputs(a, b), self._memories(a, b, moves)))
         bad = aig.both(bad, stray ^ 1)

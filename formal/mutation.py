@@ -141,7 +141,7 @@ def measure(bench, args, pool):
     if not (args.no_proof or args.mutants):
         wanted = [k for k in living if commands[k - 1] not in proofs]
         prover = equivalence.Prover(bench, UNITS[bench], folder, args.build / "mutation" / bench)
-        found = each(pool, wanted, lambda k: prover.decide(commands[k - 1], k), f"{bench}: proofs")
+        found = each(pool, wanted, prover.decide, f"{bench}: proofs")
         proofs |= {commands[k - 1]: verdict for k, verdict in found.items()}
     write(kept_path, {"run_key": run_key, "proof_key": proof_key, "runs": runs, "proofs": proofs})
     return [{"number": k, "command": commands[k - 1], "run": runs[str(k)], "lives": k in living,

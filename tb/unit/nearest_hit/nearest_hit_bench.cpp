@@ -94,11 +94,11 @@ TEST(NearestHit, SeesASingleBitOfTheProducts) {
         const std::uint32_t c = one;
         const std::uint32_t d = other | 1U << i | 1U << j;
         const bool nearer = k % 2 != 0;  // the smaller product is that of c and d
-        const ResultWord<Fp24> best{true, 0, Fp24::from_bits(nearer ? a : c), Fp24::from_bits(nearer ? d : b),
-                                    {},   {}};
+        const ResultWord<Fp24> best{
+            true, nearer ? 0U : 1U, Fp24::from_bits(nearer ? a : c), Fp24::from_bits(nearer ? d : b), {}, {}};
         dut().set(dut().port("t_i"), nearer ? c : a);
         dut().set(dut().port("d_i"), nearer ? b : d);
-        dut().set(dut().port("triangle_i"), pairs.bits(1));
+        dut().set(dut().port("triangle_i"), nearer ? 1 : 0);  // a tie would be decided the other way
         dut().set(dut().port("best_i"), best.pack());
         if (const auto due = board.clock(nearer)) {
           expect_port(dut().port("nearer_o"), *due ? 1 : 0, "nearer_o");

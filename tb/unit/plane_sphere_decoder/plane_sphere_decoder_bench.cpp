@@ -60,30 +60,32 @@ TEST_F(Decoder, JoinsThePlaneSetsOfEveryPencilSize) { run(0); }
 TEST_F(Decoder, JoinsThemAcrossBubbles) { run(50); }
 
 TEST_F(Decoder, SetsWithoutPlanesChangeNothing) {
+  std::mt19937 random(42);
   reset_dut();
   dut().set(dut().port("rows_i"), kMaxRows);
   dut().set(dut().port("columns_i"), kMaxColumns);
   dut().set(dut().port("valid_i"), 1);
   dut().set(dut().port("leaf_i"), 1);
-  const std::uint32_t all_rows = (1U << ROWS) - 1U;
-  const std::uint32_t all_columns = (1U << COLUMNS) - 1U;
   const int sets = std::max(kMaxRows / ROWS, kMaxColumns / COLUMNS);
-  for (int set = sets; set < 16; ++set) {
-    dut().set(dut().port("last_i"), 0);
-    dut().set(dut().port("row_flags_i"), all_rows);
-    dut().set(dut().port("column_flags_i"), all_columns);
-    for (int before = 0; before < sets; ++before) {
-      dut().set(dut().port("set_i"), static_cast<std::uint64_t>(before));
+  for (int k = 0; k < 50 * (16 - sets); ++k) {
+    std::uint32_t row_mask = 0;
+    std::uint32_t column_mask = 0;
+    for (int set = 0; set <= sets; ++set) {  // the last one is beyond all planes
+      const std::uint64_t row_flags = random() & ((1U << ROWS) - 1U);
+      const std::uint64_t column_flags = random() & ((1U << COLUMNS) - 1U);
+      row_mask |= set * ROWS < kMaxRows ? static_cast<std::uint32_t>(row_flags << (set * ROWS)) : 0U;
+      column_mask |=
+          set * COLUMNS < kMaxColumns ? static_cast<std::uint32_t>(column_flags << (set * COLUMNS)) : 0U;
+      dut().set(dut().port("set_i"), static_cast<std::uint64_t>(set < sets ? set : sets + k % (16 - sets)));
+      dut().set(dut().port("last_i"), set == sets ? 1 : 0);
+      dut().set(dut().port("row_flags_i"), row_flags);
+      dut().set(dut().port("column_flags_i"), column_flags);
       dut().clock();
     }
-    dut().set(dut().port("set_i"), static_cast<std::uint64_t>(set));
-    dut().set(dut().port("last_i"), 1);
-    dut().set(dut().port("row_flags_i"), 0);
-    dut().set(dut().port("column_flags_i"), 0);
-    dut().clock();
-    expect_port(dut().port("leaf_o"), 1, "leaf_o");
-    expect_port(dut().port("row_mask_o"), (1U << kMaxRows) - 1U, "row_mask_o");
-    expect_port(dut().port("column_mask_o"), (1U << kMaxColumns) - 1U, "column_mask_o");
+    ASSERT_NO_FATAL_FAILURE(
+        expect_port(dut().port("leaf_o"), row_mask != 0 && column_mask != 0 ? 1 : 0, "leaf_o"));
+    ASSERT_NO_FATAL_FAILURE(expect_port(dut().port("row_mask_o"), row_mask, "row_mask_o"));
+    ASSERT_NO_FATAL_FAILURE(expect_port(dut().port("column_mask_o"), column_mask, "column_mask_o"));
   }
 }
 

@@ -105,6 +105,79 @@ TEST_F(TraversalBench, GivesAFlatListInSixteenSets) { walk(std::vector<Node>(40)
 TEST_F(TraversalBench, EndsAtOnceWithoutSpheres) { walk({}, 0, 0, 15, 100); }
 TEST_F(TraversalBench, WaitsForRoomInTheLeafQueue) { walk(std::vector<Node>(500), 500, 0, 15, 3); }
 
+TEST_F(TraversalBench, CountsSpheresUnderTestAndLeavesTogether) {
+  walk(std::vector<Node>(400), 400, 0, 60, 100);  // slow testers: the queue's depth is under test
+  walk(std::vector<Node>(400), 400, 0, 40, 10);
+  walk(std::vector<Node>(400), 400, 0, 25, 30);
+  walk(std::vector<Node>(200), 200, 3, 15, 3);  // the other sets of a sphere need no room
+}
+
+TEST_F(TraversalBench, UsesTheWholeStack) {
+  std::mt19937 random(85);
+  reset_dut();
+  Traversal model;
+  int under_test = 0;
+  int pushed = 0;
+  for (int k = 0; k == 0 || !model.idle(); ++k) {  // each of the first spheres has children
+    ASSERT_LT(k, 100'000) << "does not end";
+    const bool start = k == 0;
+    const SphereRequest request = model.request(0, 0);
+    const bool decide = under_test > 0 && random() % 4 != 0;
+    under_test += (request.valid ? 1 : 0) - (decide ? 1 : 0);
+    const bool push = decide && pushed < kStackDepth;
+    pushed += push ? 1 : 0;
+    const SphereRange root{0x12345, 200};
+    const SphereRange children{static_cast<std::uint32_t>(random() & (kAddresses - 1)),
+                               static_cast<std::uint32_t>(1 + random() % 127)};
+    dut().set(dut().port("start_i"), start ? 1 : 0);
+    dut().set(dut().port("root_first_i"), root.first);
+    dut().set(dut().port("root_count_i"), root.count);
+    dut().set(dut().port("last_set_i"), 0);
+    dut().set(dut().port("leaves_i"), 0);
+    dut().set(dut().port("decided_i"), decide ? 1 : 0);
+    dut().set(dut().port("push_i"), push ? 1 : 0);
+    dut().set(dut().port("push_first_i"), children.first);
+    dut().set(dut().port("push_count_i"), children.count);
+    dut().settle();
+    ASSERT_NO_FATAL_FAILURE(expect_port(dut().port("request_o"), request.valid ? 1 : 0, "request_o"));
+    ASSERT_NO_FATAL_FAILURE(
+        expect_port(dut().port("stack_level_o"), static_cast<std::uint64_t>(model.level()), "stack_level_o"));
+    ASSERT_NO_FATAL_FAILURE(expect_port(dut().port("idle_o"), model.idle() ? 1 : 0, "idle_o"));
+    if (request.valid) {
+      ASSERT_NO_FATAL_FAILURE(expect_port(dut().port("address_o"), request.address, "address_o"));
+    }
+    highest_ = std::max(highest_, model.level());
+    dut().clock();
+    model.clock(start, root, request, push, children, decide);
+  }
+  EXPECT_EQ(highest_, kStackDepth);
+}
+
+TEST_F(TraversalBench, TakesEveryBitOfTheRootRange) {
+  for (const char* zero :
+       {"last_set_i", "push_i", "push_first_i", "push_count_i", "leaves_i", "decided_i", "start_i"}) {
+    dut().set(dut().port(zero), 0);
+  }
+  for (int k = 0; k <= 2 * kIdBits; ++k) {
+    const std::uint32_t count =
+        (1U << (k / 2)) + (k % 2 == 0 ? 0U : 2U);  // without its highest bit: ends early
+    reset_dut();
+    dut().set(dut().port("root_first_i"), count & (kAddresses - 1));
+    dut().set(dut().port("root_count_i"), count);
+    dut().set(dut().port("start_i"), 1);
+    dut().clock();
+    dut().set(dut().port("start_i"), 0);
+    for (std::uint32_t sphere = 0; sphere < 8; ++sphere) {
+      dut().settle();
+      expect_port(dut().port("request_o"), sphere < count ? 1 : 0, "request_o");
+      if (sphere < count) {
+        expect_port(dut().port("address_o"), (count + sphere) & (kAddresses - 1), "address_o");
+      }
+      dut().clock();
+    }
+  }
+}
+
 TEST_F(TraversalBench, WalksRandomTreesOnce) {
   std::mt19937 random(81);
   for (int tree = 0; tree < 25; ++tree) {

@@ -14,7 +14,7 @@ RENDER_JSON = $(BUILD)/$(if $(filter scenes/cornell_teapot.json-paper-128,$(SCEN
 PRIM ?= generic
 SIM ?= verilator
 
-.PHONY: help setup configure build render model sim test lint netlist figures trace waves scenes soak clean
+.PHONY: help setup configure build render model sim test lint netlist prove mutation figures trace waves scenes soak clean
 
 help: ## this list
 	@echo "RAPLAS: ray tracing by planes and bounding spheres, in VHDL, a golden model, and a host"
@@ -56,10 +56,23 @@ lint: build ## formatters, linters and generated files
 netlist: setup ## LUT, FF and DSP48 counts of the units from Yosys (estimates)
 	@scripts/netlist.py --check --build $(BUILD)
 
-figures: ## makes what is missing and collects build/figures.json and README's tables
+prove: configure ## the proofs over all inputs, then the largest errors that long campaigns find
+	formal/prove.py --build $(BUILD) --jobs $(JOBS)
+	@ninja -C $(BUILD) -j $(JOBS) raplas_bounds raplas_model raplas_host_test
+	RAPLAS_CASES=100000000 RAPLAS_FIGURES=$(BUILD)/figures/bounds.json $(BUILD)/cmodel/test/raplas_bounds
+	RAPLAS_CASES=1000000000 RAPLAS_FIGURES=$(BUILD)/figures/model.json $(BUILD)/cmodel/test/raplas_model
+	RAPLAS_CASES=200000000 RAPLAS_FIGURES=$(BUILD)/figures/radius.json $(BUILD)/host/test/raplas_host_test \
+	  --gtest_filter='ConservativeRadius.*'
+
+mutation: configure ## mutants of the synthesized netlists that the benches notice: of UNIT, or of all
+	formal/mutation.py --check --build $(BUILD) --jobs $(JOBS) $(addprefix --unit ,$(UNIT))
+
+figures: ## makes what is missing and collects build/figures.json and the tables of README and numerics
 	@[ -f $(BUILD)/figures/render.json ] || $(MAKE) render
 	@[ -f $(BUILD)/figures/netlist.json ] || $(MAKE) netlist
-	@[ -f $(BUILD)/figures/stages.fp_add.json ] && [ -f $(BUILD)/figures/radius.json ] || $(MAKE) sim
+	@[ -f $(BUILD)/figures/stages.fp_add.json ] || $(MAKE) sim
+	@[ -f $(BUILD)/figures/proof.json ] && [ -f $(BUILD)/figures/radius.json ] || $(MAKE) prove
+	@[ -f $(BUILD)/figures/mutation.json ] || $(MAKE) mutation
 	@scripts/figures.py --build $(BUILD)
 
 trace: configure ## traces of UNIT's bench and of its model, compared: build/traces

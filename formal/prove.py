@@ -29,7 +29,7 @@ import control
 from proof import FORMAL, PROVED, REFUTED, ROOT, UNDECIDED, Result, patched_rtl
 
 FAMILIES = (arithmetic, control, bounds)  # cases(work, rtl) and EXPECTED: theorem -> number of cases
-TOOLS = ("ghdl", "yosys", "berkeley-abc", "yosys-smtbmc", "z3", "gappa")
+TOOLS = ("ghdl", "yosys", "berkeley-abc", "gappa")
 
 
 def decide(case):

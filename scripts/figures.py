@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Collect measured figures, and fill the tables of README.md with them.
+"""Collect measured figures, and fill the tables of README.md and docs/numerics.md with them.
 
-usage: figures.py [--require NAME ...] [--check] [--build DIR] [--readme FILE]
+usage: figures.py [--require NAME ...] [--check] [--build DIR] [--page FILE ...]
 
 Merges DIR/figures/*.json (DIR: build) into DIR/figures.json, {"name": {"value", "unit", "command"}},
-sorted. A figure may come from several files when all give the same value and unit. In FILE (README.md;
-left alone when there is none) the lines between "<!-- figures:TABLE -->" and "<!-- /figures -->"
+sorted. A figure may come from several files when all give the same value and unit. In each FILE (default: both
+pages) the lines between "<!-- figures:TABLE -->" and "<!-- /figures -->"
 become the table TABLE of TABLES below. A figure that was not measured shows as a dash.
 
 --require  exits 1 when one of these figures is missing; "dsp48.*" asks for at least one
@@ -21,6 +21,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 MARK = re.compile(r"(?ms)^(<!-- figures:(\w+) -->\n)(.*?)^(<!-- /figures -->)$")
 DASH = "-"
+PAGES = (ROOT / "README.md", ROOT / "docs/numerics.md")
 
 # What the paper reports for the XC4VSX35 with ISE 8.2.
 PAPER = {
@@ -30,10 +31,12 @@ PAPER = {
     "paper.dsp48.ray_triangle": 70,
 }
 
-# A table has columns (heading, kind) and rows (text, key): a cell shows the figure kind.key. The kinds
+# A table has columns (heading, kind) and rows (text, key): a cell shows the figure kind.key, or, of a kind with a *,
+# the figure that has the key in its place. The kinds
 # "value", "unit" and "command" show that part of the figure `key` itself; optional rows vanish without it.
 UNITS = ("fp_add", "fp_mul", "plane_sphere_tester", "plane_sphere_subunit", "nearest_hit", "ray_triangle",
          "intersection_unit")
+MUTATED = ()
 ONE_FIGURE = (("value", "value"), ("unit", "unit"), ("command", "command"))
 TABLES = {
     "hardware": {
@@ -65,10 +68,43 @@ TABLES = {
         "head": "stored radius",
         "columns": ONE_FIGURE,
         "rows": (
-            ("cases", "radius.cases"),
+            ("adversarial cases", "radius.cases"),
             ("true hits lost", "radius.lost_hits"),
             ("true hits lost without the enlargement", "radius.lost_hits_unenlarged"),
+            ("price: extra hits of planes, bundled scene", "radius.extra_false_hits_percent"),
+            ("price: extra spheres traversed, bundled scene", "radius.extra_false_spheres_percent"),
         ),
+        "optional": (),
+    },
+    "proof": {
+        "head": "proofs and exhaustive checks",
+        "columns": ONE_FIGURE,
+        "rows": (
+            ("cases proved or decided", "proof.cases"),
+            ("cases refuted, undecided or missing", "proof.undecided"),
+            ("broken designs", "proof.broken"),
+            ("broken designs refuted", "proof.broken_refuted"),
+            ("model: pairs of fractions multiplied, all there are", "model.mul_fraction_pairs"),
+            ("model: pairs of words added", "model.add_pairs"),
+            ("model: pairs of small formats, all there are", "model.small_format_pairs"),
+            ("model: results that differ from exact integers", "model.mismatches"),
+        ),
+        "optional": (),
+    },
+    "bounds": {
+        "head": "absolute error, normalised scene",
+        "columns": (("proven", "bound.*.proven"), ("worst seen", "bound.*.worst_seen"),
+                    ("seen / proven", "bound.*.ratio"), ("0 guard bits: worst seen", "bound.*_paper.worst_seen"),
+                    ("seen / proven", "bound.*_paper.ratio")),
+        "rows": (("`n.c + p` (plane and sphere)", "distance"), ("`N.D`", "nd"), ("`t'`", "t"), ("`u'`", "u"),
+                 ("`v'`", "v"), ("`u' + v'`", "uv")),
+        "optional": (),
+    },
+    "mutation": {
+        "head": "unit",
+        "columns": (("mutants", "mutation.*.mutants"), ("killed", "mutation.*.killed"),
+                    ("proved equivalent", "mutation.*.equivalent"), ("score, %", "mutation.*.score")),
+        "rows": tuple((f"`{unit}`", unit) for unit in MUTATED),
         "optional": (),
     },
 }
@@ -126,7 +162,7 @@ def cell(figures, kind, key):
     if kind in ("value", "unit", "command"):
         part = figures.get(key, {}).get(kind)
         return f"`{part}`" if kind == "command" and part else DASH if part is None else shown(part)
-    name = f"{kind}.{key}"
+    name = kind.replace("*", key) if "*" in kind else f"{kind}.{key}"
     if name in PAPER:
         return shown(PAPER[name])
     if kind.startswith("paper."):
@@ -172,7 +208,7 @@ def main():
     parser.add_argument("--require", nargs="+", default=[], metavar="NAME")
     parser.add_argument("--check", action="store_true")
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build")
-    parser.add_argument("--readme", type=pathlib.Path, default=ROOT / "README.md")
+    parser.add_argument("--page", type=pathlib.Path, action="append")
     args = parser.parse_args()
     figures = collect(args.build / "figures")
     out = args.build / "figures.json"
@@ -181,15 +217,14 @@ def main():
     print(f"{out}: {len(figures)} figures")
     if missing := [name for name in args.require if not fnmatch.filter(figures, name)]:
         fail(f"missing: {', '.join(missing)}")
-    if not args.readme.exists():
-        return
-    text = args.readme.read_text()
-    filled, changed = fill(text, figures)
-    if changed and args.check:
-        fail(f"{args.readme}: stale: {', '.join(changed)} (scripts/figures.py writes them)")
-    if changed:
-        args.readme.write_text(filled)
-    print(f"{args.readme}: {', '.join(changed) + ' written' if changed else 'tables up to date'}")
+    for page in args.page or PAGES:
+        text = page.read_text()
+        filled, changed = fill(text, figures)
+        if changed and args.check:
+            fail(f"{page}: stale: {', '.join(changed)} (scripts/figures.py writes them)")
+        if changed:
+            page.write_text(filled)
+        print(f"{page}: {', '.join(changed) + ' written' if changed else 'tables up to date'}")
 
 
 if __name__ == "__main__":

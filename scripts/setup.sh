@@ -13,7 +13,7 @@ packages=(
   # VHDL and Verilog: simulation, export, netlists
   ghdl ghdl-llvm verilator yosys
   # proofs
-  berkeley-abc gappa z3
+  berkeley-abc gappa
   # libraries of the host and the tests
   libassimp-dev libcli11-dev libfmt-dev libglm-dev libpng-dev nlohmann-json3-dev
   libgtest-dev libgmock-dev libmpfr-dev libgmp-dev

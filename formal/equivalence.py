@@ -21,6 +21,7 @@ import subprocess
 import threading
 
 EQUIVALENT, DIFFERENT, UNDECIDED = "equivalent", "different", "undecided"
+VERSION = 1    # raise it when verdicts may change: those that are kept are then made again
 SECONDS = 120  # for each run of ABC
 CONFLICTS = 20000  # of plain SAT, before ABC's iprove
 CLOCKS = 100  # more than any pipeline has stages
@@ -44,7 +45,8 @@ RANGES = {
 
 FALSE, TRUE = 0, 1  # literals: twice the variable, plus 1 for its complement
 FLIP_FLOPS = {"$_DFF_P_", "$dff"}
-GATES = {"$_AND_", "$_OR_", "$_XOR_", "$_NOT_", "$_MUX_", "$_NAND_", "$_NOR_", "$_XNOR_", "$_ANDNOT_", "$_ORNOT_", "$_BUF_"}
+GATES = {"$_AND_", "$_OR_", "$_XOR_", "$_NOT_", "$_MUX_", "$_NAND_", "$_NOR_", "$_XNOR_", "$_ANDNOT_", "$_ORNOT_",
+         "$_BUF_"}
 
 
 class Aig:

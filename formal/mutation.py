@@ -35,6 +35,7 @@ import equivalence
 from mutants import ARITHMETIC, CONTROL, ROOT, UNITS, site_of
 
 SECONDS = 60  # a bench takes a few
+AUDITED = 5
 LEAST = {ARITHMETIC: 0.95, CONTROL: 0.90}
 KILLED, LATE, SURVIVED, CRASHED = "killed", "late", "survived", "crashed"
 FAILURE = re.compile(r"\[  FAILED  \] (\w+\.\w+)")
@@ -59,7 +60,6 @@ def sha(*parts):
 def build(benches, folder):
     if not (folder / "build.ninja").exists():
         fail(f"{folder} is not configured: make configure")
-    # one at a time: a netlist of all mutants takes the compiler much memory
     done = subprocess.run(["ninja", "-C", folder, "-j2", *(f"{bench}.mutants" for bench in benches)],
                           capture_output=True, text=True)
     if done.returncode:
@@ -70,7 +70,8 @@ def run(program, number):
     """(verdict, the test that failed) of the bench on mutant `number`."""
     environment = dict(os.environ, RAPLAS_MUTANT=str(number), GTEST_FAIL_FAST="1", GTEST_BRIEF="0")
     try:
-        done = subprocess.run([program], capture_output=True, text=True, errors="replace", timeout=SECONDS, env=environment)
+        done = subprocess.run([program], capture_output=True, text=True, errors="replace", timeout=SECONDS,
+                              env=environment)
     except subprocess.TimeoutExpired:
         return LATE, ""
     if done.returncode == 0:
@@ -98,7 +99,7 @@ class Progress:
 
 
 def each(pool, items, function, text):
-    """[function(item)] in the order of the items."""
+    """{item: function(item)}"""
     progress, results = Progress(text, len(items)), {}
     futures = {pool.submit(function, item): item for item in items}
     for future in concurrent.futures.as_completed(futures):
@@ -115,7 +116,7 @@ def read(path):
 
 
 def measure(bench, args, pool):
-    """{mutation: {"run", "by", "proof", "why"}} of the bench's mutants."""
+    """A row for each of the bench's mutants: number, command, run, lives, proof."""
     folder = args.build / "tb" / f"{bench}.mutation"
     program = args.build / "tb" / f"{bench}.mutants"
     commands = (folder / "mutants.txt").read_text().splitlines()
@@ -123,7 +124,7 @@ def measure(bench, args, pool):
     kept_path = args.build / "mutation" / f"{bench}.json"
     kept = read(kept_path)
     run_key = sha(program.read_bytes())
-    proof_key = sha(netlist, pathlib.Path(equivalence.__file__).read_bytes())
+    proof_key = sha(netlist, str(equivalence.VERSION).encode())
     runs = kept.get("runs", {}) if kept.get("run_key") == run_key else {}
     proofs = kept.get("proofs", {}) if kept.get("proof_key") == proof_key else {}
 
@@ -131,7 +132,8 @@ def measure(bench, args, pool):
         fail(f"{bench}: the bench fails without a mutant: {' '.join(control)}")
     numbers = range(1, min(len(commands), args.mutants or len(commands)) + 1)
     wanted = [k for k in numbers if str(k) not in runs]
-    runs |= {str(k): found for k, found in each(pool, wanted, lambda k: run(program, k), f"{bench}: mutants").items()}
+    found = each(pool, wanted, lambda k: run(program, k), f"{bench}: mutants")
+    runs |= {str(k): verdict for k, verdict in found.items()}
 
     def lives(k):
         verdict = runs[str(k)][0]
@@ -141,6 +143,11 @@ def measure(bench, args, pool):
     if not (args.no_proof or args.mutants):
         wanted = [k for k in living if commands[k - 1] not in proofs]
         prover = equivalence.Prover(bench, UNITS[bench], folder, args.build / "mutation" / bench)
+        # the proofs themselves on trial: a mutant that a test told from the unit is not equivalent
+        audited = [k for k in numbers if k not in living][:AUDITED] if wanted else []
+        audit = each(pool, audited, prover.decide, f"{bench}: killed ones to the proof")
+        if wrong := [k for k, verdict in audit.items() if verdict[0] == equivalence.EQUIVALENT]:
+            fail(f"{bench}: killed, and proved equivalent: mutants {wrong}")
         found = each(pool, wanted, prover.decide, f"{bench}: proofs")
         proofs |= {commands[k - 1]: verdict for k, verdict in found.items()}
     write(kept_path, {"run_key": run_key, "proof_key": proof_key, "runs": runs, "proofs": proofs})
@@ -162,9 +169,10 @@ def print_survivors(bench, rows):
             cell, port, bit = site_of(row["command"])
             mode = re.search(r"-mode (\S+)", row["command"])[1]
             wire = re.search(r"-wire (\S+) -wirebit (\d+)", row["command"])
-            where = f"{wire[1]}[{wire[2]}]" if wire else ""
-            print(f"  {bench} mutant {row['number']}: {row['run'][0]} {row['run'][1]}, {row['proof'][0]}: {mode} "
-                  f"{cell}.{port}[{bit}] {where} {' '.join(re.findall(r'-src (?:.*?/)?([^/ ]+)', row['command']))} {row['proof'][1]}")
+            where = f" {wire[1]}[{wire[2]}]" if wire else ""
+            lines = "".join(f" {line}" for line in re.findall(r"-src \S*/([^/ ]+)", row["command"]))
+            print(f"  {bench} mutant {row['number']}: {row['run'][0]} {row['run'][1]}, {row['proof'][0]}: "
+                  f"{mode} {cell}.{port}[{bit}]{where}{lines} {row['proof'][1]}")
 
 
 def main():
@@ -182,7 +190,8 @@ def main():
     start = time.monotonic()
     build(benches, args.build)
     print(f"built in {time.monotonic() - start:.0f} s", flush=True)
-    print(f"{'unit':22} {'mutants':>8} {'killed':>8} {'equivalent':>11} {'survivors':>10} {'score':>8} {'seconds':>8}", flush=True)
+    print(f"{'unit':22} {'mutants':>8} {'killed':>8} {'equivalent':>11} {'survivors':>10} {'score':>8} {'seconds':>8}",
+          flush=True)
     table, low = {}, []
     with concurrent.futures.ThreadPoolExecutor(args.jobs) as pool:
         for bench in benches:
@@ -199,7 +208,8 @@ def main():
     if not (args.unit or args.mutants or args.no_proof):
         units = {"score": "of the mutants that can be noticed"}
         write(args.build / "figures/mutation.json", {
-            f"mutation.{bench}.{kind}": {"value": f[kind], "unit": units.get(kind, "mutants"), "command": "make mutation"}
+            f"mutation.{bench}.{kind}":
+                {"value": f[kind], "unit": units.get(kind, "mutants"), "command": "make mutation"}
             for bench, f in table.items() for kind in ("mutants", "killed", "equivalent", "score")})
     if low:
         fail(f"too many survivors: {', '.join(low)}")

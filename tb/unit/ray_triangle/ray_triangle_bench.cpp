@@ -12,7 +12,7 @@ namespace {
 
 using F = std::conditional_t<GUARD_BITS == 0, Fp24Paper, Fp24>;
 using Vector = std::array<std::uint32_t, 3>;
-const int kCases = Dut::simulator() == "ghdl" ? 1'500 : 12'000;
+const int kCases = Dut::simulator() == "ghdl" ? 1'500 : 30'000;
 constexpr int kBestStage = kRayTriangleStages - kMulStages - kMemoryStages;  // the best hit is asked for
 const PortStage kHitStage{"hit_o", kRayTriangleStages};
 const PortStage kWriteStage{"write_o", kRayTriangleStages};
@@ -113,7 +113,7 @@ class RayTriangle : public testing::Test {
   }
 
  private:
-  /// Puts a pair on the inputs: three kinds of triangles in turn.
+  /// Puts a pair on the inputs: four kinds of triangles in turn.
   static Expected apply(OperandPairs& pairs, int k) {
     const auto number = [&](int low, int high) { return pairs.word(63 + pairs.between(low, high)); };
     const auto vector = [&](int low, int high) {
@@ -128,6 +128,17 @@ class RayTriangle : public testing::Test {
       o = vector(-64, 64);
       e1 = vector(-64, 64);
       v0 = vector(-64, 64);
+      if (k % 16 == 15) {
+        d = vector(-64, 64);
+        e2 = vector(-64, 64);
+      }
+    } else if (k % 8 == 3) {  // sums of unlike addends, and products near the ends of the range
+      const int middle = k % 16 == 3 ? 0 : pairs.between(-1, 1) * 28;
+      d = vector(-16, 16);
+      e1 = vector(middle - 8, middle + 8);
+      e2 = vector(middle - 8, middle + 8);
+      o = vector(-16, 16);
+      v0 = vector(-16, 16);
     } else if (k % 2 == 0) {  // aimed at a point of the triangle, often at its rim
       const double u = pairs.between(0, 8) / 8.0;
       const double v = (1 - u) * pairs.between(0, 8) / 8.0;
@@ -171,6 +182,23 @@ class RayTriangle : public testing::Test {
 
 TEST_F(RayTriangle, SolvesAPairEveryClock) { run(0); }
 TEST_F(RayTriangle, KeepsItsPlaceAmongBubbles) { run(60); }
+
+TEST_F(RayTriangle, ForgetsWhatIsInsideWhenReset) {
+  reset_dut();
+  dut().set(dut().port("valid_i"), 1);
+  for (int k = 0; k < 2 * kRayTriangleStages; ++k) {
+    dut().clock();
+  }
+  expect_port(dut().port("valid_o"), 1, "valid_o");
+  dut().set(dut().port("rst_i"), 1);
+  dut().clock();
+  dut().set(dut().port("rst_i"), 0);
+  dut().set(dut().port("valid_i"), 0);
+  for (int k = 0; k < 2 * kRayTriangleStages; ++k) {
+    expect_port(dut().port("valid_o"), 0, "valid_o");
+    dut().clock();
+  }
+}
 
 }  // namespace
 }  // namespace raplas

@@ -40,7 +40,7 @@ MEANS = {
 # unit -> input -> least and greatest value
 RANGES = {
     "plane_sphere_decoder": {"rows_i": (1, 16), "columns_i": (1, 16)},
-    "traversal": {"push_count_i": (1, 127)},
+    "traversal": {"root_count_i": (0, 1 << 20), "push_count_i": (1, 127)},
 }
 
 FALSE, TRUE = 0, 1  # literals: twice the variable, plus 1 for its complement

@@ -36,7 +36,9 @@ PAPER = {
 # "value", "unit" and "command" show that part of the figure `key` itself; optional rows vanish without it.
 UNITS = ("fp_add", "fp_mul", "plane_sphere_tester", "plane_sphere_subunit", "nearest_hit", "ray_triangle",
          "intersection_unit")
-MUTATED = ()
+MUTATED = ("dsp_mul", "dsp_addsub_11", "fp_mul", "fp_add", "fp_add_paper", "plane_sphere_tester", "plane_sphere_subunit",
+           "nearest_hit", "ray_triangle", "fifo", "plane_sphere_decoder", "traversal", "selector", "pair_issue",
+           "result_memory", "intersection_unit")
 ONE_FIGURE = (("value", "value"), ("unit", "unit"), ("command", "command"))
 TABLES = {
     "hardware": {
@@ -103,7 +105,7 @@ TABLES = {
     "mutation": {
         "head": "unit",
         "columns": (("mutants", "mutation.*.mutants"), ("killed", "mutation.*.killed"),
-                    ("proved equivalent", "mutation.*.equivalent"), ("score, %", "mutation.*.score")),
+                    ("proved equivalent", "mutation.*.equivalent"), ("score", "mutation.*.score")),
         "rows": tuple((f"`{unit}`", unit) for unit in MUTATED),
         "optional": (),
     },

@@ -74,9 +74,11 @@ TABLES = {
             ("true hits lost", "radius.lost_hits"),
             ("true hits lost without the enlargement", "radius.lost_hits_unenlarged"),
             ("price: extra hits of planes, bundled scene", "radius.extra_false_hits_percent"),
+            ("price: extra hits of planes, Stanford bunny", "radius.extra_false_hits_percent.bunny_69k"),
             ("price: extra spheres traversed, bundled scene", "radius.extra_false_spheres_percent"),
+            ("price: extra spheres traversed, Stanford bunny", "radius.extra_false_spheres_percent.bunny_69k"),
         ),
-        "optional": (),
+        "optional": ("radius.extra_false_hits_percent.bunny_69k", "radius.extra_false_spheres_percent.bunny_69k"),
     },
     "proof": {
         "head": "proofs and exhaustive checks",

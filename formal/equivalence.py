@@ -10,6 +10,8 @@ pipeline  (units without feedback) outputs as functions of the inputs of earlier
 reset     (units with feedback) after a clock of rst_i = 1 in the same arbitrary state, and with the same words
           in memories, no outputs differ, whatever comes in (ABC's scorr and pdr)
 
+A part (an instance that stays a module, see mutants.py) gives anything, the same in both netlists, as long as its
+inputs have never differed; so they are compared like outputs, in the clocks of the reset too.
 An output that means something only beside a valid bit is compared only then: MEANS. Inputs keep to what the
 unit's page says of them: RANGES. A multiplication is first
 any function of its operands, the same in both netlists; only if that fails, gates.
@@ -19,6 +21,8 @@ import pathlib
 import re
 import subprocess
 import threading
+
+from mutants import modules
 
 EQUIVALENT, DIFFERENT, UNDECIDED = "equivalent", "different", "undecided"
 VERSION = 1    # raise it when verdicts may change: those that are kept are then made again
@@ -35,6 +39,9 @@ MEANS = {
     "plane_sphere_decoder": {"row_mask_o": "decided_o", "column_mask_o": "decided_o"},
     "selector": {"ray_o": "valid_o", "triangle_o": "valid_o"},
     "traversal": {"address_o": "request_o", "set_o": "request_o", "first_o": "request_o", "last_o": "request_o"},
+    "intersection_unit": {"sphere_o": "request_o", "set_o": "request_o", "row_mask_o": "decided_o",
+                          "column_mask_o": "decided_o", "stored_ray_o": "pair_done_o",
+                          "stored_result_o": "pair_done_o"},
 }
 
 # unit -> input -> least and greatest value
@@ -167,6 +174,7 @@ class Netlist:
         module = json.loads(path.read_text())["modules"][unit]
         self.ports = module["ports"]
         self.cells = module["cells"]
+        self.parts = {name for name, cell in self.cells.items() if not cell["type"].startswith("$")}
         self.driver = {}
         for name, port in self.ports.items():
             if port["direction"] == "input":
@@ -231,6 +239,8 @@ class View:
             return [(b, age) for b in pins(cell, "RD_ADDR")] if self.other else []
         if kind == "$mul":
             return [(b, age) for port in "AB" for b in pins(cell, port)]
+        if cell in self.netlist.parts:
+            return []
         if kind not in GATES:
             raise RuntimeError(f"a cell that no proof knows: {kind}")
         return [(pins(cell, port)[0], age) for port in "ABS" if pins(cell, port)]
@@ -252,6 +262,8 @@ class View:
             return self._read(cell, place, values)
         if kind == "$mul":
             return self._product(cell, values)[place]
+        if cell in self.netlist.parts:
+            return aig.input(f"{cell}.{port}.{place}")
         a, b, s = (values + [None, None])[:3]
         return {"$_AND_": lambda: aig.both(a, b), "$_OR_": lambda: aig.either(a, b),
                 "$_XOR_": lambda: aig.differ(a, b), "$_NOT_": lambda: a ^ 1, "$_BUF_": lambda: a,
@@ -299,7 +311,7 @@ class Prover:
 
     def __init__(self, bench, row, folder, work):
         self.unit, self.folder, self.work = row.unit, folder, work
-        self.means = MEANS.get(row.unit, {})
+        self.means, self.parts = MEANS.get(row.unit, {}), modules(row)
         work.mkdir(parents=True, exist_ok=True)
         self.netlist, self.lock = None, threading.Lock()
 
@@ -308,6 +320,8 @@ class Prover:
         whole = "t:$mem_v2 %d t:$mul %d t:$dff %d t:$_DFF_P_ %d"
         path = self.work / "netlist.json"
         script = f"read_ilang {self.folder / 'netlist.il'}; script {self.folder / 'mutants.ys'}; dffunmap; opt_clean; "
+        if self.parts:
+            script += f"blackbox {self.parts}; "
         script += "; ".join([f"techmap t:* {whole}"] * 6)
         done = subprocess.run(["yosys", "-q", "-Q", "-T", "-p", f"{script}; opt_clean; write_json {path}"],
                               capture_output=True, text=True)
@@ -411,6 +425,12 @@ class Prover:
                               for (a, _), pair in zip(enables, pairs["WR_DATA"][port * bits:(port + 1) * bits])]
         return aig.any(different)
 
+    def _parts(self, unit, mutant):
+        """Literal: 1 where an input of a part differs."""
+        return unit.aig.any(unit.aig.differ(unit(bit), mutant(bit)) for name in self.netlist.parts
+                            for port, direction in self.netlist.cells[name]["port_directions"].items()
+                            if direction == "input" for bit in self.netlist.pins(name, port))
+
     def _registers(self):
         """(cell, place, the bit that it takes next) of all registers."""
         for name, cell in self.netlist.cells.items():
@@ -444,7 +464,7 @@ class Prover:
         aig = Aig()
         a = View(self.netlist, 0, aig, gates)
         b = View(self.netlist, mutant, aig, gates, other=a)
-        bad = [self._outputs(a, b), self._memories(a, b)]
+        bad = [self._outputs(a, b), self._memories(a, b), self._parts(a, b)]
         bad += [aig.differ(a(bit), b(bit)) for _, _, bit in self._registers()]
         return self._solve(aig, aig.both(aig.any(bad), self._allowed(a)), path, "step")
 
@@ -476,6 +496,7 @@ class Prover:
                 next_values[aig.latch(f"{copy} {name}.{k}")] = view(bit)
         moves = {}
         bad = aig.both(started, aig.either(self._outputs(a, b), self._memories(a, b, moves)))
+        bad = aig.either(bad, self._parts(a, b))
         bad = aig.both(bad, stray ^ 1)
         for (cell, place), (enable, elsewhere) in moves.items():
             moved = aig.latch(f"moved {cell} {place}")

@@ -16,6 +16,8 @@ Two kinds of cells stay whole, as they are one block in the FPGA: memories and t
 their ports are mutated like those of gates. In dsp_mul the multiplication is made of gates too.
 Words: the large units, made of units that are mutated as gates too, stay at the level of adders,
 multiplexers and registers of words.
+Parts: instances of a row's `parts` stay modules, and their inside is left alone: it is the business of their
+own rows. What connects them is mutated like everything else, their ports included.
 A mutant inverts one bit of one port of one cell, or holds it at 0 or at 1, or (words only) inverts it
 when another bit of the port is 0, or 1. Clocks, and pins tied to a constant, are left alone.
 """
@@ -44,6 +46,7 @@ class Bench:
     mutants: int = 250
     level: str = GATES
     multiplier: bool = False  # the multiplication becomes gates too
+    parts: tuple = ()  # entities inside it that have rows of their own
 
 
 UNITS = {
@@ -62,10 +65,12 @@ UNITS = {
     "selector": Bench("selector", CONTROL),
     "pair_issue": Bench("pair_issue", CONTROL),
     "result_memory": Bench("result_memory", CONTROL),
-    "intersection_unit": Bench("intersection_unit", CONTROL, level=WORDS),
+    "intersection_unit": Bench("intersection_unit", CONTROL, level=WORDS, parts=(
+        "plane_sphere_subunit", "plane_sphere_decoder", "traversal", "selector", "pair_issue", "ray_triangle", "fifo",
+        "result_memory")),
 }
 
-SHARED = "hierarchy -check -top {unit}; proc; flatten; opt; wreduce; peepopt; opt_clean; opt -full; memory -nomap; opt_clean"
+SHARED = "hierarchy -check -top {unit}; proc; {keep}flatten; opt; wreduce; peepopt; opt_clean; opt -full; memory -nomap; opt_clean"
 MAPPED = "opt -fast -full; opt -undriven -fine; {techmap}; opt -fast; abc -g simple; opt -fast; opt_clean"
 
 
@@ -80,13 +85,20 @@ def yosys(script):
     return done.stdout
 
 
+def modules(bench):
+    """The modules of its parts: GHDL appends the generics to the name of the entity."""
+    return " ".join(f"{part} {part}_*" for part in bench.parts)
+
+
 def synthesis(bench):
     """The passes that make the netlist."""
+    keep = f"setattr -mod -set keep_hierarchy 1 {modules(bench)}; " if bench.parts else ""
     if bench.level == WORDS:
-        return SHARED.format(unit=bench.unit)
+        return SHARED.format(unit=bench.unit, keep=keep)
     whole = "t:$mem_v2 %d" + ("" if bench.multiplier else " t:$mul %d")
     # a pass maps the selected cells only, not what they become: adders to carries to gates takes several
-    return "; ".join((SHARED, MAPPED)).format(unit=bench.unit, techmap="; ".join([f"techmap t:* {whole}"] * 6))
+    techmap = "; ".join([f"techmap t:* {whole}"] * 6)
+    return "; ".join((SHARED, MAPPED)).format(unit=bench.unit, keep=keep, techmap=techmap)
 
 
 def sites(netlist, unit):
@@ -117,7 +129,7 @@ def make(bench, export, out):
           f"write_ilang {netlist}; write_json {everything}")
     allowed = sites(everything, bench.unit)
     # Yosys 0.23 does not end when asked for more than there are: each site has at least three mutants
-    yosys(f"read_ilang {netlist}; mutate -list {min(4 * bench.mutants, len(allowed) * 2)} -seed {SEED} -o {raw}")
+    yosys(f"read_ilang {netlist}; mutate -list {min(4 * bench.mutants, len(allowed) * 2)} -seed {SEED} -o {raw} {bench.unit}")
     commands = [line for line in raw.read_text().splitlines() if site_of(line) in allowed][:bench.mutants]
     width = len(commands).bit_length()
     script = out / "mutants.ys"

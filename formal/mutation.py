@@ -3,7 +3,7 @@
 
 usage: mutation.py [--unit B ...] [--mutants N] [--check] [--no-proof] [--survivors] [--jobs N] [--build DIR]
 
-B is a bench of formal/mutants.py's list (without --unit all but those APART). Its program DIR/tb/B.mutants is built: the
+B is a bench of formal/mutants.py's list (without --unit all of them). Its program DIR/tb/B.mutants is built: the
 bench as the regression runs it, on the synthesized netlist that holds all mutants. It runs once without
 a mutant, when it must pass, and once with each. Then:
   killed      a test of the bench failed. Not ending within SECONDS counts too, for control units only.
@@ -37,9 +37,6 @@ from mutants import ARITHMETIC, CONTROL, ROOT, UNITS, site_of
 SECONDS = 60  # a bench takes a few
 AUDITED = 5
 LEAST = {ARITHMETIC: 0.95, CONTROL: 0.90}
-# the whole unit takes as long as all others, and its bench is not made to look into the arithmetic, which is
-# most of its netlist: that is the business of the parts' own benches
-APART = {"intersection_unit"}
 KILLED, LATE, SURVIVED, CRASHED = "killed", "late", "survived", "crashed"
 FAILURE = re.compile(r"\[  FAILED  \] (\w+\.\w+)")
 
@@ -189,7 +186,7 @@ def main():
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build")
     args = parser.parse_args()
     args.build = args.build.resolve()
-    benches = args.unit or [bench for bench in UNITS if bench not in APART]
+    benches = args.unit or list(UNITS)
     start = time.monotonic()
     build(benches, args.build)
     print(f"built in {time.monotonic() - start:.0f} s", flush=True)
@@ -201,7 +198,7 @@ def main():
             begin = time.monotonic()
             rows = measure(bench, args, pool)
             f = table[bench] = figures(bench, rows)
-            too_low = bench not in APART and f["score"] < LEAST[UNITS[bench].kind]
+            too_low = f["score"] < LEAST[UNITS[bench].kind]
             if f["killed"] == 0 or (too_low and args.check):
                 low.append(bench)
             print(f"{bench:22} {f['mutants']:8} {f['killed']:8} {f['equivalent']:11} {f['survivors']:10} "

@@ -38,7 +38,7 @@ UNITS = ("fp_add", "fp_mul", "plane_sphere_tester", "plane_sphere_subunit", "nea
          "intersection_unit")
 MUTATED = ("dsp_mul", "dsp_addsub_11", "fp_mul", "fp_add", "fp_add_paper", "plane_sphere_tester", "plane_sphere_subunit",
            "nearest_hit", "ray_triangle", "fifo", "plane_sphere_decoder", "traversal", "selector", "pair_issue",
-           "result_memory")
+           "result_memory", "intersection_unit")
 ONE_FIGURE = (("value", "value"), ("unit", "unit"), ("command", "command"))
 TABLES = {
     "hardware": {

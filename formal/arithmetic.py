@@ -87,6 +87,7 @@ def counterexample(path, constants):
     return ", ".join(text + later)
 
 
+DISTANCES = [(distance, swap) for distance in range(128) for swap in (0, 1) if distance or not swap]  # all 255
 QUICK_DISTANCES = (0, 1, 2, 17, 18, 19, 127)
 
 
@@ -95,10 +96,12 @@ def adder(work, rtl, guard, subtract, prim):
     miter = Miter(name, work, rtl, "fp_add", 4, prim, (f"GUARD_BITS={guard}", f"SUBTRACT={str(subtract).lower()}"),
                   (("GUARD_BITS", guard), ("SUBTRACT", int(subtract))))
     quick = prim == "generic" and not subtract and guard != 1
-    for distance in range(128):
-        for swap in (0, 1) if distance else (0,):  # at distance 0 both orders are one case
-            yield miter.case(f"distance_{distance:03}{'_swapped' if swap else ''}",
-                             quick and distance in QUICK_DISTANCES, distance=(distance, 7), swap=(swap, 1))
+    return [case(miter, distance, swap, quick and distance in QUICK_DISTANCES) for distance, swap in DISTANCES]
+
+
+def case(miter, distance, swap, quick=False):
+    return miter.case(f"distance_{distance:03}{'_swapped' if swap else ''}", quick, distance=(distance, 7),
+                      swap=(swap, 1))
 
 
 ADDERS = [(guard, subtract, prim) for guard in (2, 1, 0) for subtract in (False, True) for prim in ("generic", "xc4v")]
@@ -113,6 +116,8 @@ def cases(work, rtl):
         found.append(Miter(f"fp_mul.{prim}", work, rtl, "fp_mul", 3, prim).case("all", prim == "generic"))
         found.append(Miter(f"fp_product.{prim}", work, rtl, "fp_product", 2, prim).case("all", prim == "generic"))
     found.append(Miter("fp_add.cases_are_all", work, rtl, "fp_add", 0, source="fp_add_cases").case("all", True))
+    cut = Miter("fp_add.cut", work, rtl, "fp_add", 0, source="fp_add_cut")
+    found += [case(cut, distance, swap) for distance, swap in DISTANCES]
     nearest = Miter("nearest_hit", work, rtl, "nearest_hit", 3, stubs=("fp_product",))
     found += [nearest.case(f"difference_{k:+04}", k in (-252, -1, 0, 1, 2), difference=(k & 1023, 10))
               for k in range(-252, 253)]
@@ -126,6 +131,7 @@ def cases(work, rtl):
 EXPECTED = {
     **{f"fp_{'subtract' if subtract else 'add'}.guard{guard}.{prim}": 255 for guard, subtract, prim in ADDERS},
     "fp_add.cases_are_all": 1,
+    "fp_add.cut": 255,
     **{f"{unit}.{prim}": 1 for unit in ("fp_mul", "fp_product") for prim in ("generic", "xc4v")},
     "nearest_hit": 505,
     "plane_sphere_tester.compare": 1,

@@ -23,7 +23,7 @@ L (1 - 2^-10)). So nothing saturates, and |c_x| <= L 2^-17, the last place of nu
 cuts the smaller operand to the last place of the larger one, adds exactly, and truncates. Signs equal: cutting to
 that place and then to a higher one is truncating the exact sum, and costs less than the sum's last place. Signs
 opposite: the difference needs no more than 17 bits; only the cut costs, less than the larger operand's last place.
-(By induction along the operations: what is said of x needs only what is said of its operands.)
+(Theorem fp_add.cut. By induction along the operations: what is said of x needs only what is said of its operands.)
 
 The other theorems take the ranges for granted, and two sums that gappa can't bound well by itself (Hoelder): the
 rounding errors of products with `sum` S add up to at most 2^-16 S + 2^-62 each, and errors of operands that are at

@@ -58,9 +58,10 @@ netlist: setup ## LUT, FF and DSP48 counts of the units from Yosys (estimates)
 
 prove: configure ## the proofs over all inputs, then the largest errors that long campaigns find
 	formal/prove.py --build $(BUILD) --jobs $(JOBS)
-	@ninja -C $(BUILD) -j $(JOBS) raplas_bounds raplas_model raplas_host_test
-	RAPLAS_CASES=100000000 RAPLAS_FIGURES=$(BUILD)/figures/bounds.json $(BUILD)/cmodel/test/raplas_bounds
-	RAPLAS_CASES=1000000000 RAPLAS_FIGURES=$(BUILD)/figures/model.json $(BUILD)/cmodel/test/raplas_model
+	@ninja -C $(BUILD) -j $(JOBS) raplas_bounds_test raplas_float_definition_test raplas_host_test
+	RAPLAS_CASES=100000000 RAPLAS_FIGURES=$(BUILD)/figures/bounds.json $(BUILD)/cmodel/test/raplas_bounds_test
+	RAPLAS_CASES=1000000000 RAPLAS_FIGURES=$(BUILD)/figures/model.json \
+	  $(BUILD)/cmodel/test/raplas_float_definition_test
 	RAPLAS_CASES=200000000 RAPLAS_FIGURES=$(BUILD)/figures/radius.json $(BUILD)/host/test/raplas_host_test \
 	  --gtest_filter='ConservativeRadius.*'
 

@@ -8,7 +8,7 @@ can be 1.
 import pathlib
 import re
 
-from proof import FORMAL, PROVED, REFUTED, UNDECIDED, Case, Once, Result, export, run
+from common import FORMAL, PROVED, REFUTED, UNDECIDED, Case, Once, Result, export, run
 
 SECONDS = 120  # for one case
 SOURCES = FORMAL / "arithmetic"

@@ -1,6 +1,6 @@
 """Theorems bounds.*: how far the datapaths are from mathematics, proved by gappa.
 
-bounds/*.g.in holds a datapath's operations in the RTL's order; cmodel/test/bounds_test.cpp compares them with
+bounds/*.g.in holds a datapath's operations in the RTL's order; cmodel/test/bounds_script_test.cpp compares them with
 the golden model's, one by one. The notation:
 
     word A B ..  M        operands of the datapath: fp24 numbers of magnitude <= M
@@ -36,7 +36,7 @@ import json
 import subprocess
 import sys
 
-from proof import FORMAL, PROVED, UNDECIDED, Case, Result
+from common import FORMAL, PROVED, UNDECIDED, Case, Result
 
 FOLDER = FORMAL / "bounds"
 DATAPATHS = ("plane_sphere", "ray_triangle")

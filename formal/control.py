@@ -13,9 +13,8 @@ with a label, stand for nothing else in those files.
 import dataclasses
 import re
 import shutil
-import subprocess
 
-from proof import FORMAL, PROVED, REFUTED, UNDECIDED, Case, Once, Result, export
+from common import FORMAL, PROVED, REFUTED, UNDECIDED, Case, Once, Result, export, run
 
 SECONDS = 600  # of one run of the solver
 REFUTATION = "model found for base case"
@@ -129,10 +128,7 @@ def properties(model):
 
 
 def yosys(script):
-    run = subprocess.run(["yosys", "-Q", "-T", "-p", script], capture_output=True, text=True, timeout=SECONDS)
-    if run.returncode:
-        raise RuntimeError(f"yosys: {run.stderr[-1500:] or run.stdout[-1500:]}")
-    return run.stdout
+    return run("yosys", "-Q", "-T", "-p", script, seconds=SECONDS)
 
 
 def prove(netlist, *options):

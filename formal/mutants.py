@@ -26,10 +26,10 @@ import dataclasses
 import json
 import pathlib
 import re
-import subprocess
 import sys
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+from common import run
+
 ARITHMETIC, CONTROL = "arithmetic", "control"
 SEED = 1
 PORT = "mutant_i"
@@ -70,19 +70,13 @@ UNITS = {
         "result_memory")),
 }
 
-SHARED = "hierarchy -check -top {unit}; proc; {keep}flatten; opt; wreduce; peepopt; opt_clean; opt -full; memory -nomap; opt_clean"
+SHARED = ("hierarchy -check -top {unit}; proc; {keep}flatten; opt; wreduce; peepopt; opt_clean; opt -full; "
+          "memory -nomap; opt_clean")
 MAPPED = "opt -fast -full; opt -undriven -fine; {techmap}; opt -fast; abc -g simple; opt -fast; opt_clean"
 
 
-def fail(message):
-    sys.exit(f"mutants: {message}")
-
-
 def yosys(script):
-    done = subprocess.run(["yosys", "-q", "-Q", "-T", "-p", script], capture_output=True, text=True)
-    if done.returncode:
-        fail(f"yosys failed:\n{script[:300]}\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
-    return done.stdout
+    return run("yosys", "-q", "-Q", "-T", "-p", script)
 
 
 def modules(bench):
@@ -129,7 +123,8 @@ def make(bench, export, out):
           f"write_ilang {netlist}; write_json {everything}")
     allowed = sites(everything, bench.unit)
     # Yosys 0.23 does not end when asked for more than there are: each site has at least three mutants
-    yosys(f"read_ilang {netlist}; mutate -list {min(4 * bench.mutants, len(allowed) * 2)} -seed {SEED} -o {raw} {bench.unit}")
+    number = min(4 * bench.mutants, len(allowed) * 2)
+    yosys(f"read_ilang {netlist}; mutate -list {number} -seed {SEED} -o {raw} {bench.unit}")
     commands = [line for line in raw.read_text().splitlines() if site_of(line) in allowed][:bench.mutants]
     width = len(commands).bit_length()
     script = out / "mutants.ys"
@@ -150,7 +145,10 @@ def main():
     parser.add_argument("--export", required=True, type=pathlib.Path)
     parser.add_argument("--out", required=True, type=pathlib.Path)
     args = parser.parse_args()
-    make(UNITS[args.bench], args.export, args.out)
+    try:
+        make(UNITS[args.bench], args.export, args.out)
+    except RuntimeError as error:
+        sys.exit(f"mutants: {error}")
 
 
 if __name__ == "__main__":

@@ -30,9 +30,9 @@ import subprocess
 import sys
 import time
 
-sys.dont_write_bytecode = True  # no __pycache__ beside the sources
 import equivalence
-from mutants import ARITHMETIC, CONTROL, ROOT, UNITS, site_of
+from common import ROOT, Progress, write_json
+from mutants import ARITHMETIC, CONTROL, UNITS, site_of
 
 SECONDS = 60  # a bench takes a few
 AUDITED = 5
@@ -43,14 +43,6 @@ FAILURE = re.compile(r"\[  FAILED  \] (\w+\.\w+)")
 
 def fail(message):
     sys.exit(f"mutation: {message}")
-
-
-def write(path, value):
-    """Replaces a file in one step, so that a reader never sees half of it."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_name(f"{path.name}.{os.getpid()}")
-    part.write_text(json.dumps(value, indent=1) + "\n")
-    part.replace(path)
 
 
 def sha(*parts):
@@ -82,29 +74,13 @@ def run(program, number):
     return CRASHED, done.stderr.strip()[-200:]
 
 
-class Progress:
-    """One line on a terminal, a line each quarter minute elsewhere."""
-
-    def __init__(self, text, total):
-        self.text, self.total, self.done, self.last = text, total, 0, time.monotonic()
-
-    def step(self):
-        self.done += 1
-        line = f"{self.text}: {self.done}/{self.total}"
-        if sys.stdout.isatty():
-            print(f"\r\033[K{line}", end="" if self.done < self.total else "\r\033[K", flush=True)
-        elif time.monotonic() - self.last > 15:
-            self.last = time.monotonic()
-            print(line, flush=True)
-
-
 def each(pool, items, function, text):
     """{item: function(item)}"""
-    progress, results = Progress(text, len(items)), {}
+    progress, results = Progress(len(items), text), {}
     futures = {pool.submit(function, item): item for item in items}
     for future in concurrent.futures.as_completed(futures):
         results[futures[future]] = future.result()
-        progress.step()
+        progress.step("")
     return results
 
 
@@ -142,7 +118,7 @@ def measure(bench, args, pool):
     living = [k for k in numbers if lives(k)]
     if not (args.no_proof or args.mutants):
         wanted = [k for k in living if commands[k - 1] not in proofs]
-        prover = equivalence.Prover(bench, UNITS[bench], folder, args.build / "mutation" / bench)
+        prover = equivalence.Prover(UNITS[bench], folder, args.build / "mutation" / bench)
         # the proofs themselves on trial: a mutant that a test told from the unit is not equivalent
         audited = [k for k in numbers if k not in living][:AUDITED] if wanted else []
         audit = each(pool, audited, prover.decide, f"{bench}: killed ones to the proof")
@@ -150,7 +126,7 @@ def measure(bench, args, pool):
             fail(f"{bench}: killed, and proved equivalent: mutants {wrong}")
         found = each(pool, wanted, prover.decide, f"{bench}: proofs")
         proofs |= {commands[k - 1]: verdict for k, verdict in found.items()}
-    write(kept_path, {"run_key": run_key, "proof_key": proof_key, "runs": runs, "proofs": proofs})
+    write_json(kept_path, {"run_key": run_key, "proof_key": proof_key, "runs": runs, "proofs": proofs})
     return [{"number": k, "command": commands[k - 1], "run": runs[str(k)], "lives": k in living,
              "proof": proofs.get(commands[k - 1], ["undecided", ""]) if k in living else None} for k in numbers]
 
@@ -208,7 +184,7 @@ def main():
     print(f"{time.monotonic() - start:.0f} s")
     if not (args.unit or args.mutants or args.no_proof):
         units = {"score": "of the mutants that can be noticed"}
-        write(args.build / "figures/mutation.json", {
+        write_json(args.build / "figures/mutation.json", {
             f"mutation.{bench}.{kind}":
                 {"value": f[kind], "unit": units.get(kind, "mutants"), "command": "make mutation"}
             for bench, f in table.items() for kind in ("mutants", "killed", "equivalent", "score")})

@@ -15,7 +15,6 @@ Writes DIR/figures/proof.json (a whole run only).
 import argparse
 import concurrent.futures
 import fnmatch
-import json
 import pathlib
 import shutil
 import subprocess
@@ -26,7 +25,7 @@ import tomllib
 import arithmetic
 import bounds
 import control
-from proof import FORMAL, PROVED, REFUTED, ROOT, UNDECIDED, Result, patched_rtl
+from common import FORMAL, PROVED, REFUTED, ROOT, UNDECIDED, Progress, Result, patched_rtl, write_json
 
 FAMILIES = (arithmetic, control, bounds)  # cases(work, rtl) and EXPECTED: theorem -> number of cases
 TOOLS = ("ghdl", "yosys", "berkeley-abc", "gappa")
@@ -43,23 +42,6 @@ def decide(case):
     return result, time.monotonic() - start
 
 
-class Progress:
-    """One line on a terminal, a line a minute elsewhere."""
-
-    def __init__(self, total):
-        self.total, self.done, self.start, self.last = total, 0, time.monotonic(), 0.0
-
-    def step(self, case):
-        self.done += 1
-        now = time.monotonic()
-        text = f"{self.done}/{self.total} cases, {now - self.start:.0f} s, {case.theorem}.{case.name}"
-        if sys.stdout.isatty():
-            print(f"\r\033[K{text[:100]}", end="" if self.done < self.total else "\r\033[K", flush=True)
-        elif now - self.last > 60:
-            self.last = now
-            print(text, flush=True)
-
-
 def wanted(text, patterns):
     return not patterns or any(fnmatch.fnmatch(text, pattern) for pattern in patterns)
 
@@ -73,7 +55,7 @@ def prove(cases, jobs):
         for future in concurrent.futures.as_completed(futures):
             case = futures[future]
             results.setdefault(case.theorem, []).append((case, *future.result()))
-            progress.step(case)
+            progress.step(f"{case.theorem}.{case.name}")
     return results
 
 
@@ -137,7 +119,6 @@ def write_figures(path, results, cases_bad, refuted, broken):
     def figure(value, unit):
         return {"value": value, "unit": unit, "command": "make prove"}
 
-    path.parent.mkdir(parents=True, exist_ok=True)
     figures = {
         "proof.cases": figure(sum(map(len, results.values())), "cases"),
         "proof.undecided": figure(cases_bad, "cases"),
@@ -147,7 +128,7 @@ def write_figures(path, results, cases_bad, refuted, broken):
     for theorem, rows in results.items():
         figures[f"proof.{theorem}.cases"] = figure(len(rows), "cases")
         figures[f"proof.{theorem}.seconds"] = figure(round(sum(s for _, _, s in rows), 1), "s")
-    path.write_text(json.dumps(figures, indent=2) + "\n")
+    write_json(path, figures)
 
 
 def main():

@@ -14,6 +14,7 @@ become the table TABLE of TABLES below. A figure that was not measured shows as 
 import argparse
 import fnmatch
 import json
+import os
 import pathlib
 import re
 import sys
@@ -32,13 +33,10 @@ PAPER = {
 }
 
 # A table has columns (heading, kind) and rows (text, key): a cell shows the figure kind.key, or, of a kind with a *,
-# the figure that has the key in its place. The kinds
+# the figure that has the key in its place; rows may be such a kind too: all keys that there are. The kinds
 # "value", "unit" and "command" show that part of the figure `key` itself; optional rows vanish without it.
 UNITS = ("fp_add", "fp_mul", "plane_sphere_tester", "plane_sphere_subunit", "nearest_hit", "ray_triangle",
          "intersection_unit")
-MUTATED = ("dsp_mul", "dsp_addsub_11", "fp_mul", "fp_add", "fp_add_paper", "plane_sphere_tester", "plane_sphere_subunit",
-           "nearest_hit", "ray_triangle", "fifo", "plane_sphere_decoder", "traversal", "selector", "pair_issue",
-           "result_memory", "intersection_unit")
 ONE_FIGURE = (("value", "value"), ("unit", "unit"), ("command", "command"))
 TABLES = {
     "hardware": {
@@ -108,7 +106,7 @@ TABLES = {
         "head": "unit",
         "columns": (("mutants", "mutation.*.mutants"), ("killed", "mutation.*.killed"),
                     ("proved equivalent", "mutation.*.equivalent"), ("score", "mutation.*.score")),
-        "rows": tuple((f"`{unit}`", unit) for unit in MUTATED),
+        "rows": "mutation.*.score",
         "optional": (),
     },
 }
@@ -116,6 +114,14 @@ TABLES = {
 
 def fail(message):
     sys.exit(f"figures: {message}")
+
+
+def write_json(path, value):
+    """Replaces a file in one step, so that a reader never sees half of it."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    part = path.with_name(f"{path.name}.{os.getpid()}")
+    part.write_text(json.dumps(value, indent=2) + "\n")
+    part.replace(path)
 
 
 def read(path):
@@ -182,7 +188,12 @@ def table(name, figures):
     lines = [f"| {spec['head']} | " + " | ".join(heading for heading, _ in spec["columns"]) + " |"]
     right = ["---" if kind in ("unit", "command") else "---:" for _, kind in spec["columns"]]
     lines.append("| --- | " + " | ".join(right) + " |")
-    for text, key in spec["rows"]:
+    rows = spec["rows"]
+    if isinstance(rows, str):
+        before, after = rows.split("*")
+        keys = [name.removeprefix(before).removesuffix(after) for name in fnmatch.filter(figures, rows)]
+        rows = [(f"`{key}`", key) for key in keys]
+    for text, key in rows:
         if key in spec["optional"] and key not in figures:
             continue
         lines.append(f"| {text} | " + " | ".join(cell(figures, kind, key) for _, kind in spec["columns"]) + " |")
@@ -216,8 +227,7 @@ def main():
     args = parser.parse_args()
     figures = collect(args.build / "figures")
     out = args.build / "figures.json"
-    out.parent.mkdir(parents=True, exist_ok=True)
-    out.write_text(json.dumps(figures, indent=2) + "\n")
+    write_json(out, figures)
     print(f"{out}: {len(figures)} figures")
     if missing := [name for name in args.require if not fnmatch.filter(figures, name)]:
         fail(f"missing: {', '.join(missing)}")

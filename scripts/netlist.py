@@ -30,6 +30,8 @@ import subprocess
 import sys
 import time
 
+from figures import write_json
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 DSP48 = {
     "fp_add": 2,
@@ -99,16 +101,8 @@ def cells_of(unit, verilog, passes, kept, fresh, version):
         fail(f"{unit}: yosys failed:\n{run.stdout[-2000:]}{run.stderr}")
     cells = json.loads(out.read_text())["design"]["num_cells_by_type"]
     out.unlink()
-    write(kept, {"key": key, "seconds": seconds, "cells": cells})
+    write_json(kept, {"key": key, "seconds": seconds, "cells": cells})
     return cells, seconds
-
-
-def write(path, value):
-    """Replaces a file in one step, so that a reader never sees half of it."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_name(f"{path.name}.{os.getpid()}")
-    part.write_text(json.dumps(value, indent=2) + "\n")
-    part.replace(path)
 
 
 def lut_ram(cell):
@@ -193,7 +187,7 @@ def write_figures(path, results):
     for unit, values in results.items():
         for kind in KINDS:
             figures[f"{kind}.{unit}"] = {"value": values[kind], "unit": UNIT_OF[kind], "command": "make netlist"}
-    write(path, dict(sorted(figures.items())))
+    write_json(path, dict(sorted(figures.items())))
     print(f"\n{path}: {len(figures)} figures")
 
 

@@ -1,4 +1,4 @@
-// A fast generator, and fp24 words by their values.
+// A fast random number generator.
 #pragma once
 
 #include <bit>
@@ -39,15 +39,5 @@ class Xoshiro {
  private:
   std::uint64_t state_[4];
 };
-
-/// The value of an fp24 word.
-[[nodiscard]] constexpr double fp24_value(std::uint32_t word) noexcept {
-  const std::uint64_t exponent = (word >> 16) & 127;
-  if (exponent == 0) {
-    return 0;
-  }
-  return std::bit_cast<double>((std::uint64_t{word >> 23} << 63) | ((exponent + 1023 - 63) << 52) |
-                               (std::uint64_t{word & 0xffff} << 36));
-}
 
 }  // namespace raplas

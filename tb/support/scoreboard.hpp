@@ -69,4 +69,26 @@ inline void reset_dut() {
   dut().set(reset, 0);
 }
 
+/// A unit with valid_i, valid_o and a pipeline of `stages`: after a clock of rst_i nothing that was inside
+/// comes out.
+inline void expect_empty_after_reset(int stages) {
+  const auto clocks = [](int count) {
+    for (int k = 0; k < count; ++k) {
+      dut().clock();
+    }
+  };
+  reset_dut();
+  dut().set(dut().port("valid_i"), 1);
+  clocks(2 * stages);
+  expect_port(dut().port("valid_o"), 1, "valid_o");
+  dut().set(dut().port("rst_i"), 1);
+  clocks(1);
+  dut().set(dut().port("rst_i"), 0);
+  dut().set(dut().port("valid_i"), 0);
+  for (int k = 0; k < 2 * stages; ++k) {
+    expect_port(dut().port("valid_o"), 0, "valid_o");
+    clocks(1);
+  }
+}
+
 }  // namespace raplas

@@ -94,8 +94,16 @@ class Float {
 
   /// The value, exactly.
   [[nodiscard]] double to_double() const noexcept {
-    const double magnitude = std::ldexp(significand(), exponent() - kBias - kFractionBits);
-    return sign() ? -magnitude : magnitude;
+    constexpr int kDoubleBias = 1023;
+    constexpr int kDoubleFractionBits = 52;
+    const std::uint64_t sign_bit = static_cast<std::uint64_t>(sign()) << 63;
+    if (is_zero()) {
+      return std::bit_cast<double>(sign_bit);
+    }
+    const auto exponent_field = static_cast<std::uint64_t>(exponent() - kBias + kDoubleBias);
+    const std::uint64_t fraction = significand() ^ kHidden;
+    return std::bit_cast<double>(sign_bit | (exponent_field << kDoubleFractionBits) |
+                                 (fraction << (kDoubleFractionBits - kFractionBits)));
   }
 
   /// The nearest number (ties to even); magnitudes under the smallest normal go to the nearer of 0 and it.

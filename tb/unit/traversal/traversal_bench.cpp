@@ -41,6 +41,14 @@ std::vector<Node> random_tree(std::mt19937& random, std::uint32_t root, std::uin
 
 class TraversalBench : public testing::Test {
  protected:
+  /// One plane set, an empty leaf queue, and testers that decide nothing.
+  static void clear_inputs() {
+    for (const char* name : {"start_i", "root_first_i", "root_count_i", "last_set_i", "push_i",
+                             "push_first_i", "push_count_i", "decided_i", "leaves_i"}) {
+      dut().set(dut().port(name), 0);
+    }
+  }
+
   /// Walks the tree with testers of `latency` clocks; leaves pile up as the selector takes `take_percent`.
   void walk(const std::vector<Node>& nodes, std::uint32_t root, int last_set, int latency,
             unsigned take_percent, std::uint32_t base = kFirst, int stop_after = 0) {
@@ -154,10 +162,7 @@ TEST_F(TraversalBench, UsesTheWholeStack) {
 }
 
 TEST_F(TraversalBench, TakesEveryBitOfTheRootRange) {
-  for (const char* zero :
-       {"last_set_i", "push_i", "push_first_i", "push_count_i", "leaves_i", "decided_i", "start_i"}) {
-    dut().set(dut().port(zero), 0);
-  }
+  clear_inputs();
   for (int k = 0; k <= 2 * kIdBits; ++k) {
     const std::uint32_t count =
         (1U << (k / 2)) + (k % 2 == 0 ? 0U : 2U);  // without its highest bit: ends early
@@ -227,12 +232,8 @@ TEST_F(TraversalBench, CountsEverySphereOfTheLongestList) {
   const PortId address = dut().port("address_o");
   const PortId idle = dut().port("idle_o");
   const PortId decided = dut().port("decided_i");
-  for (const char* zero :
-       {"root_first_i", "last_set_i", "push_i", "push_first_i", "push_count_i", "leaves_i"}) {
-    dut().set(dut().port(zero), 0);
-  }
+  clear_inputs();
   dut().set(dut().port("root_count_i"), spheres);
-  dut().set(decided, 0);
   dut().set(start, 1);
   dut().clock();
   dut().set(start, 0);

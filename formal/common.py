@@ -1,13 +1,16 @@
-"""What the proofs share: cases, verdicts, exports of the RTL, and runs of the provers."""
+"""What the programs of this folder share: cases and verdicts, runs of tools, exports of the RTL, progress."""
 import dataclasses
 import pathlib
 import subprocess
 import sys
 import threading
+import time
 from collections.abc import Callable
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 FORMAL = ROOT / "formal"
+sys.path.insert(0, str(ROOT / "scripts"))
+from figures import write_json  # noqa: E402, F401: for the programs of this folder
 
 PROVED, REFUTED, UNDECIDED = "proved", "refuted", "undecided"
 
@@ -47,6 +50,24 @@ def run(*command, seconds=None, cwd=None):
     if done.returncode:
         raise RuntimeError(f"{' '.join(map(str, command))[:300]}\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
     return done.stdout
+
+
+class Progress:
+    """One line on a terminal, a line a minute elsewhere."""
+
+    def __init__(self, total, what="cases"):
+        self.total, self.what, self.done = total, what, 0
+        self.start = self.last = time.monotonic()
+
+    def step(self, name):
+        self.done += 1
+        now = time.monotonic()
+        text = f"{self.done}/{self.total} {self.what}, {now - self.start:.0f} s, {name}"
+        if sys.stdout.isatty():
+            print(f"\r\033[K{text[:100]}", end="" if self.done < self.total else "\r\033[K", flush=True)
+        elif now - self.last > 60:
+            self.last = now
+            print(text, flush=True)
 
 
 def export(unit, folder, generics=(), prim="generic", rtl=ROOT / "rtl"):

@@ -100,7 +100,8 @@ class Float {
     if (is_zero()) {
       return std::bit_cast<double>(sign_bit);
     }
-    const auto exponent_field = static_cast<std::uint64_t>(exponent() - kBias + kDoubleBias);
+    const int biased = exponent() - kBias + kDoubleBias;
+    const auto exponent_field = static_cast<std::uint64_t>(biased);
     const std::uint64_t fraction = significand() ^ kHidden;
     return std::bit_cast<double>(sign_bit | (exponent_field << kDoubleFractionBits) |
                                  (fraction << (kDoubleFractionBits - kFractionBits)));

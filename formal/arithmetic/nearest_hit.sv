@@ -24,7 +24,7 @@ module miter (
   input [33:0] this_significand, best_significand,
   input signed [8:0] this_exponent, best_exponent,
   input best_hit,
-  input [19:0] this_id, best_id,
+  input [20:0] this_id, best_id,
   output bad
 );
   wire nearer, first;

@@ -23,14 +23,14 @@ endmodule
 module nearest_hit (
   input clk_i,
   input [23:0] t_i, d_i,
-  input [19:0] triangle_i,
-  input [116:0] best_i,
+  input [20:0] triangle_i,
+  input [117:0] best_i,
   output nearer_o, first_o
 );
   reg [2:0] nearer, first;
   always @(posedge clk_i) begin
-    nearer <= {nearer[1:0], best_i[116]};
-    first <= {first[1:0], best_i[115]};
+    nearer <= {nearer[1:0], best_i[117]};
+    first <= {first[1:0], best_i[116]};
   end
   assign nearer_o = nearer[2], first_o = first[2];
 endmodule
@@ -39,18 +39,18 @@ module miter (
   input clk_i, now,
   input [23:0] nd, nt, e2, e1,
   input [7:0] ray,
-  input [19:0] id,
+  input [20:0] id,
   input nearer, first,    // at @26
   output bad
 );
   wire valid_o, hit_o, write_o, first_o;
   wire [7:0] ray_o;
-  wire [116:0] result_o;
+  wire [117:0] result_o;
   wire [23:0] zero = 24'd0;
   ray_triangle unit (
     .clk_i(clk_i), .rst_i(1'b0), .valid_i(now), .ray_i(ray), .triangle_id_i(id),
     .triangle_i({nt, zero, zero, e1, zero, zero, e2, zero, zero, zero, zero, zero}),
-    .direction_i({nd, zero, zero}), .origin_i(72'd0), .best_i({nearer, first, 115'd0}),
+    .direction_i({nd, zero, zero}), .origin_i(72'd0), .best_i({nearer, first, 116'd0}),
     .valid_o(valid_o), .hit_o(hit_o), .write_o(write_o), .first_o(first_o), .ray_o(ray_o), .result_o(result_o));
 
   function canonical(input [23:0] x);
@@ -69,7 +69,7 @@ module miter (
   wire [23:0] t = zero_t ? zero : {nt[23] ^ sign, nt[22:0]}, d = zero_d ? zero : {1'b0, nd[22:0]};
   wire [23:0] u = zero_u ? zero : {!e2[23] ^ sign, e2[22:0]}, v = zero_v ? zero : {e1[23] ^ sign, e1[22:0]};
 
-  reg [126:0] line [0:28];
+  reg [127:0] line [0:28];
   reg [1:0] side [0:2];
   integer k;
   always @(posedge clk_i) begin
@@ -79,9 +79,9 @@ module miter (
     for (k = 1; k < 3; k = k + 1) side[k] <= side[k - 1];
   end
   wire was, ok, was_hit;
-  wire [123:0] rest;
+  wire [124:0] rest;
   assign {was, ok, was_hit, rest} = line[28];
   wire wrong = hit_o != was_hit || write_o != (was_hit && side[2][1]) || first_o != (was_hit && side[2][0])
-            || ray_o != rest[123:116] || result_o != {was_hit, rest[115:0]};
+            || ray_o != rest[124:117] || result_o != {was_hit, rest[116:0]};
   assign bad = valid_o != was || was && ok && wrong;
 endmodule

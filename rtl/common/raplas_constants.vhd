@@ -31,8 +31,8 @@ package raplas_constants is
   constant MAX_COLUMNS : natural := 16;
   -- bits of a row or column number; ray ID = row * MAX_COLUMNS + column
   constant LINE_BITS : natural := 4;
-  -- bits of a sphere or triangle ID (the address in its memory)
-  constant ID_BITS : natural := 20;
+  -- bits of a sphere, vertex or triangle ID (the address in its memory)
+  constant ID_BITS : natural := 21;
   -- bits of the number of children (spheres or triangles) of a node
   constant COUNT_BITS : natural := 7;
   -- bits of each event counter
@@ -51,12 +51,48 @@ package raplas_constants is
   constant PAIR_FIFO_DEPTH : natural := 16;
   -- PAIR_FIFO_DEPTH = 2^4
   constant PAIR_FIFO_DEPTH_LOG2 : natural := 4;
+  -- fixed point: bits of a coordinate, a normal's component, a radius
+  constant COORDINATE_BITS : natural := 18;
+  -- fixed point: fraction bits of these three
+  constant COORDINATE_FRACTION : natural := 17;
+  -- fixed point: bits of a plane's offset (signed); LSB 2^-34
+  constant OFFSET_BITS : natural := 36;
+  -- latency of dsp_plane_test, clocks from its first operand
+  constant PLANE_TEST_STAGES : natural := 6;
+  -- depth code: bits of the exponent; code 0 stands for 0
+  constant DEPTH_EXPONENT_BITS : natural := 5;
+  -- depth code: bits of the fraction
+  constant DEPTH_FRACTION_BITS : natural := 10;
+  -- depth code of (1 + fraction / 2^10) 2^(exponent - 21); codes order as integers
+  constant DEPTH_BITS : natural := 15;
+  -- depth code: bias of the exponent
+  constant DEPTH_BIAS : natural := 21;
+  -- latency of depth_code, clocks
+  constant DEPTH_CODE_STAGES : natural := 2;
+  -- depth code: taken off depths, for rays whose t is a little too small
+  constant DEPTH_MARGIN : natural := 4;
+  -- depth code: t / d is below the code that depth_quotient gives plus this
+  constant QUOTIENT_ERROR : natural := 4;
+  -- pencils that the Plane, Ray and Result memories hold
+  constant PENCIL_BANKS : natural := 4;
+  -- PENCIL_BANKS = 2^2
+  constant BANK_BITS : natural := 2;
+  -- planes of a pencil in fixed point: 16 rows, 16 columns, near plane, depth plane
+  constant NUM_FIXED_PLANES : natural := 34;
+  -- entries at the top of the traversal stack among which the nearest comes first
+  constant SORTED_RANGES : natural := 4;
+  -- triangles that wait for the selector: 2^6
+  constant TRIANGLE_FIFO_DEPTH_LOG2 : natural := 6;
+  -- rows of triangles that wait for the selector's second half: 2^4
+  constant ROW_FIFO_DEPTH_LOG2 : natural := 4;
+  -- hits that wait for the nearest hit of their ray: 2^6
+  constant HIT_FIFO_DEPTH_LOG2 : natural := 6;
 
   subtype fp24_t is std_ulogic_vector(FP_BITS - 1 downto 0);
 
   -- node of the sphere tree; children first .. first+count-1: triangles in a leaf, else spheres
-  constant SPHERE_BITS : natural := 124;
-  subtype sphere_word_t is std_ulogic_vector(123 downto 0);
+  constant SPHERE_BITS : natural := 125;
+  subtype sphere_word_t is std_ulogic_vector(124 downto 0);
   type sphere_t is record
     cx : fp24_t;
     cy : fp24_t;
@@ -64,7 +100,7 @@ package raplas_constants is
     r : fp24_t;
     leaf : std_ulogic;
     count : std_ulogic_vector(6 downto 0);
-    first : std_ulogic_vector(19 downto 0);
+    first : std_ulogic_vector(20 downto 0);
   end record;
   function unpack_sphere(word : sphere_word_t) return sphere_t;
   function pack_sphere(fields : sphere_t) return sphere_word_t;
@@ -126,22 +162,22 @@ package raplas_constants is
   function pack_pencil(fields : pencil_t) return pencil_word_t;
 
   -- register: root range of the sphere tree, and number of spheres in the memory
-  constant SCENE_BITS : natural := 62;
-  subtype scene_word_t is std_ulogic_vector(61 downto 0);
+  constant SCENE_BITS : natural := 65;
+  subtype scene_word_t is std_ulogic_vector(64 downto 0);
   type scene_t is record
-    spheres : std_ulogic_vector(20 downto 0);
-    count : std_ulogic_vector(20 downto 0);
-    first : std_ulogic_vector(19 downto 0);
+    spheres : std_ulogic_vector(21 downto 0);
+    count : std_ulogic_vector(21 downto 0);
+    first : std_ulogic_vector(20 downto 0);
   end record;
   function unpack_scene(word : scene_word_t) return scene_t;
   function pack_scene(fields : scene_t) return scene_word_t;
 
   -- nearest hit of a ray: t = t'/d, u = u'/d, v = v'/d; address = bank * 256 + ray ID
-  constant RESULT_BITS : natural := 117;
-  subtype result_word_t is std_ulogic_vector(116 downto 0);
+  constant RESULT_BITS : natural := 118;
+  subtype result_word_t is std_ulogic_vector(117 downto 0);
   type result_t is record
     hit : std_ulogic;
-    triangle : std_ulogic_vector(19 downto 0);
+    triangle : std_ulogic_vector(20 downto 0);
     t : fp24_t;
     d : fp24_t;
     u : fp24_t;
@@ -150,6 +186,58 @@ package raplas_constants is
   function unpack_result(word : result_word_t) return result_t;
   function pack_result(fields : result_t) return result_word_t;
 
+  -- sphere in fixed point; children first .. first+count-1: vertices in a leaf, else nodes
+  constant NODE_BITS : natural := 101;
+  subtype node_word_t is std_ulogic_vector(100 downto 0);
+  type node_t is record
+    cx : std_ulogic_vector(17 downto 0);
+    cy : std_ulogic_vector(17 downto 0);
+    cz : std_ulogic_vector(17 downto 0);
+    r : std_ulogic_vector(17 downto 0);
+    leaf : std_ulogic;
+    count : std_ulogic_vector(6 downto 0);
+    first : std_ulogic_vector(20 downto 0);
+  end record;
+  function unpack_node(word : node_word_t) return node_t;
+  function pack_node(fields : node_t) return node_word_t;
+
+  -- vertex in fixed point, goes to a slot (0..2); emit: slots now hold the triangle
+  constant VERTEX_BITS : natural := 78;
+  subtype vertex_word_t is std_ulogic_vector(77 downto 0);
+  type vertex_t is record
+    x : std_ulogic_vector(17 downto 0);
+    y : std_ulogic_vector(17 downto 0);
+    z : std_ulogic_vector(17 downto 0);
+    slot : std_ulogic_vector(1 downto 0);
+    emit : std_ulogic;
+    triangle : std_ulogic_vector(20 downto 0);
+  end record;
+  function unpack_vertex(word : vertex_word_t) return vertex_t;
+  function pack_vertex(fields : vertex_t) return vertex_word_t;
+
+  -- n.x + p = 0, |n| <= 1; address = bank * 64 + (row, 16 + column, 32 near, 33 depth)
+  constant FIXED_PLANE_BITS : natural := 90;
+  subtype fixed_plane_word_t is std_ulogic_vector(89 downto 0);
+  type fixed_plane_t is record
+    nx : std_ulogic_vector(17 downto 0);
+    ny : std_ulogic_vector(17 downto 0);
+    nz : std_ulogic_vector(17 downto 0);
+    p : std_ulogic_vector(35 downto 0);
+  end record;
+  function unpack_fixed_plane(word : fixed_plane_word_t) return fixed_plane_t;
+  function pack_fixed_plane(fields : fixed_plane_t) return fixed_plane_word_t;
+
+  -- register: any hit ends a ray; error bound of the planes; first depth too far; address = bank
+  constant LIMITS_BITS : natural := 34;
+  subtype limits_word_t is std_ulogic_vector(33 downto 0);
+  type limits_t is record
+    any_hit : std_ulogic;
+    slack : std_ulogic_vector(17 downto 0);
+    far : std_ulogic_vector(14 downto 0);
+  end record;
+  function unpack_limits(word : limits_word_t) return limits_t;
+  function pack_limits(fields : limits_t) return limits_word_t;
+
   -- codes of the host's write targets
   constant TARGET_SPHERE : natural := 0;
   constant TARGET_TRIANGLE : natural := 1;
@@ -157,6 +245,8 @@ package raplas_constants is
   constant TARGET_RAY : natural := 3;
   constant TARGET_PENCIL : natural := 4;
   constant TARGET_SCENE : natural := 5;
+  constant TARGET_VERTEX : natural := 6;
+  constant TARGET_LIMITS : natural := 7;
 
   -- places of the counters in the counter bus, COUNTER_BITS each
   constant COUNTER_CYCLES : natural := 0;
@@ -166,7 +256,8 @@ package raplas_constants is
   constant COUNTER_PAIRS_TESTED : natural := 4;
   constant COUNTER_HITS : natural := 5;
   constant COUNTER_STALL_CYCLES : natural := 6;
-  constant NUM_COUNTERS : natural := 7;
+  constant COUNTER_VERTICES_TESTED : natural := 7;
+  constant NUM_COUNTERS : natural := 8;
 
 end package raplas_constants;
 
@@ -175,13 +266,13 @@ package body raplas_constants is
   function unpack_sphere(word : sphere_word_t) return sphere_t is
     variable fields_v : sphere_t;
   begin
-    fields_v.cx := word(123 downto 100);
-    fields_v.cy := word(99 downto 76);
-    fields_v.cz := word(75 downto 52);
-    fields_v.r := word(51 downto 28);
-    fields_v.leaf := word(27);
-    fields_v.count := word(26 downto 20);
-    fields_v.first := word(19 downto 0);
+    fields_v.cx := word(124 downto 101);
+    fields_v.cy := word(100 downto 77);
+    fields_v.cz := word(76 downto 53);
+    fields_v.r := word(52 downto 29);
+    fields_v.leaf := word(28);
+    fields_v.count := word(27 downto 21);
+    fields_v.first := word(20 downto 0);
     return fields_v;
   end function unpack_sphere;
 
@@ -265,9 +356,9 @@ package body raplas_constants is
   function unpack_scene(word : scene_word_t) return scene_t is
     variable fields_v : scene_t;
   begin
-    fields_v.spheres := word(61 downto 41);
-    fields_v.count := word(40 downto 20);
-    fields_v.first := word(19 downto 0);
+    fields_v.spheres := word(64 downto 43);
+    fields_v.count := word(42 downto 21);
+    fields_v.first := word(20 downto 0);
     return fields_v;
   end function unpack_scene;
 
@@ -279,8 +370,8 @@ package body raplas_constants is
   function unpack_result(word : result_word_t) return result_t is
     variable fields_v : result_t;
   begin
-    fields_v.hit := word(116);
-    fields_v.triangle := word(115 downto 96);
+    fields_v.hit := word(117);
+    fields_v.triangle := word(116 downto 96);
     fields_v.t := word(95 downto 72);
     fields_v.d := word(71 downto 48);
     fields_v.u := word(47 downto 24);
@@ -293,5 +384,71 @@ package body raplas_constants is
     return fields.hit & fields.triangle & fields.t & fields.d
       & fields.u & fields.v;
   end function pack_result;
+
+  function unpack_node(word : node_word_t) return node_t is
+    variable fields_v : node_t;
+  begin
+    fields_v.cx := word(100 downto 83);
+    fields_v.cy := word(82 downto 65);
+    fields_v.cz := word(64 downto 47);
+    fields_v.r := word(46 downto 29);
+    fields_v.leaf := word(28);
+    fields_v.count := word(27 downto 21);
+    fields_v.first := word(20 downto 0);
+    return fields_v;
+  end function unpack_node;
+
+  function pack_node(fields : node_t) return node_word_t is
+  begin
+    return fields.cx & fields.cy & fields.cz & fields.r
+      & fields.leaf & fields.count & fields.first;
+  end function pack_node;
+
+  function unpack_vertex(word : vertex_word_t) return vertex_t is
+    variable fields_v : vertex_t;
+  begin
+    fields_v.x := word(77 downto 60);
+    fields_v.y := word(59 downto 42);
+    fields_v.z := word(41 downto 24);
+    fields_v.slot := word(23 downto 22);
+    fields_v.emit := word(21);
+    fields_v.triangle := word(20 downto 0);
+    return fields_v;
+  end function unpack_vertex;
+
+  function pack_vertex(fields : vertex_t) return vertex_word_t is
+  begin
+    return fields.x & fields.y & fields.z & fields.slot
+      & fields.emit & fields.triangle;
+  end function pack_vertex;
+
+  function unpack_fixed_plane(word : fixed_plane_word_t) return fixed_plane_t is
+    variable fields_v : fixed_plane_t;
+  begin
+    fields_v.nx := word(89 downto 72);
+    fields_v.ny := word(71 downto 54);
+    fields_v.nz := word(53 downto 36);
+    fields_v.p := word(35 downto 0);
+    return fields_v;
+  end function unpack_fixed_plane;
+
+  function pack_fixed_plane(fields : fixed_plane_t) return fixed_plane_word_t is
+  begin
+    return fields.nx & fields.ny & fields.nz & fields.p;
+  end function pack_fixed_plane;
+
+  function unpack_limits(word : limits_word_t) return limits_t is
+    variable fields_v : limits_t;
+  begin
+    fields_v.any_hit := word(33);
+    fields_v.slack := word(32 downto 15);
+    fields_v.far := word(14 downto 0);
+    return fields_v;
+  end function unpack_limits;
+
+  function pack_limits(fields : limits_t) return limits_word_t is
+  begin
+    return fields.any_hit & fields.slack & fields.far;
+  end function pack_limits;
 
 end package body raplas_constants;

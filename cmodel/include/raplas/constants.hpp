@@ -30,8 +30,8 @@ inline constexpr int kMaxRows = 16;
 inline constexpr int kMaxColumns = 16;
 /// bits of a row or column number; ray ID = row * MAX_COLUMNS + column
 inline constexpr int kLineBits = 4;
-/// bits of a sphere or triangle ID (the address in its memory)
-inline constexpr int kIdBits = 20;
+/// bits of a sphere, vertex or triangle ID (the address in its memory)
+inline constexpr int kIdBits = 21;
 /// bits of the number of children (spheres or triangles) of a node
 inline constexpr int kCountBits = 7;
 /// bits of each event counter
@@ -50,6 +50,42 @@ inline constexpr int kLeafFifoDepthLog2 = 5;
 inline constexpr int kPairFifoDepth = 16;
 /// PAIR_FIFO_DEPTH = 2^4
 inline constexpr int kPairFifoDepthLog2 = 4;
+/// fixed point: bits of a coordinate, a normal's component, a radius
+inline constexpr int kCoordinateBits = 18;
+/// fixed point: fraction bits of these three
+inline constexpr int kCoordinateFraction = 17;
+/// fixed point: bits of a plane's offset (signed); LSB 2^-34
+inline constexpr int kOffsetBits = 36;
+/// latency of dsp_plane_test, clocks from its first operand
+inline constexpr int kPlaneTestStages = 6;
+/// depth code: bits of the exponent; code 0 stands for 0
+inline constexpr int kDepthExponentBits = 5;
+/// depth code: bits of the fraction
+inline constexpr int kDepthFractionBits = 10;
+/// depth code of (1 + fraction / 2^10) 2^(exponent - 21); codes order as integers
+inline constexpr int kDepthBits = 15;
+/// depth code: bias of the exponent
+inline constexpr int kDepthBias = 21;
+/// latency of depth_code, clocks
+inline constexpr int kDepthCodeStages = 2;
+/// depth code: taken off depths, for rays whose t is a little too small
+inline constexpr int kDepthMargin = 4;
+/// depth code: t / d is below the code that depth_quotient gives plus this
+inline constexpr int kQuotientError = 4;
+/// pencils that the Plane, Ray and Result memories hold
+inline constexpr int kPencilBanks = 4;
+/// PENCIL_BANKS = 2^2
+inline constexpr int kBankBits = 2;
+/// planes of a pencil in fixed point: 16 rows, 16 columns, near plane, depth plane
+inline constexpr int kNumFixedPlanes = 34;
+/// entries at the top of the traversal stack among which the nearest comes first
+inline constexpr int kSortedRanges = 4;
+/// triangles that wait for the selector: 2^6
+inline constexpr int kTriangleFifoDepthLog2 = 6;
+/// rows of triangles that wait for the selector's second half: 2^4
+inline constexpr int kRowFifoDepthLog2 = 4;
+/// hits that wait for the nearest hit of their ray: 2^6
+inline constexpr int kHitFifoDepthLog2 = 6;
 
 /// Place of a field in a memory word.
 struct Field {
@@ -59,14 +95,14 @@ struct Field {
 
 /// node of the sphere tree; children first .. first+count-1: triangles in a leaf, else spheres
 struct SphereLayout {
-  static constexpr int kBits = 124;
-  static constexpr Field cx{100, 24};
-  static constexpr Field cy{76, 24};
-  static constexpr Field cz{52, 24};
-  static constexpr Field r{28, 24};
-  static constexpr Field leaf{27, 1};
-  static constexpr Field count{20, 7};
-  static constexpr Field first{0, 20};
+  static constexpr int kBits = 125;
+  static constexpr Field cx{101, 24};
+  static constexpr Field cy{77, 24};
+  static constexpr Field cz{53, 24};
+  static constexpr Field r{29, 24};
+  static constexpr Field leaf{28, 1};
+  static constexpr Field count{21, 7};
+  static constexpr Field first{0, 21};
 };
 
 /// vertex V0, edges E1 = V1-V0 and E2 = V2-V0, normal N = E1 x E2
@@ -115,21 +151,61 @@ struct PencilLayout {
 
 /// register: root range of the sphere tree, and number of spheres in the memory
 struct SceneLayout {
-  static constexpr int kBits = 62;
-  static constexpr Field spheres{41, 21};
-  static constexpr Field count{20, 21};
-  static constexpr Field first{0, 20};
+  static constexpr int kBits = 65;
+  static constexpr Field spheres{43, 22};
+  static constexpr Field count{21, 22};
+  static constexpr Field first{0, 21};
 };
 
 /// nearest hit of a ray: t = t'/d, u = u'/d, v = v'/d; address = bank * 256 + ray ID
 struct ResultLayout {
-  static constexpr int kBits = 117;
-  static constexpr Field hit{116, 1};
-  static constexpr Field triangle{96, 20};
+  static constexpr int kBits = 118;
+  static constexpr Field hit{117, 1};
+  static constexpr Field triangle{96, 21};
   static constexpr Field t{72, 24};
   static constexpr Field d{48, 24};
   static constexpr Field u{24, 24};
   static constexpr Field v{0, 24};
+};
+
+/// sphere in fixed point; children first .. first+count-1: vertices in a leaf, else nodes
+struct NodeLayout {
+  static constexpr int kBits = 101;
+  static constexpr Field cx{83, 18};
+  static constexpr Field cy{65, 18};
+  static constexpr Field cz{47, 18};
+  static constexpr Field r{29, 18};
+  static constexpr Field leaf{28, 1};
+  static constexpr Field count{21, 7};
+  static constexpr Field first{0, 21};
+};
+
+/// vertex in fixed point, goes to a slot (0..2); emit: slots now hold the triangle
+struct VertexLayout {
+  static constexpr int kBits = 78;
+  static constexpr Field x{60, 18};
+  static constexpr Field y{42, 18};
+  static constexpr Field z{24, 18};
+  static constexpr Field slot{22, 2};
+  static constexpr Field emit{21, 1};
+  static constexpr Field triangle{0, 21};
+};
+
+/// n.x + p = 0, |n| <= 1; address = bank * 64 + (row, 16 + column, 32 near, 33 depth)
+struct FixedPlaneLayout {
+  static constexpr int kBits = 90;
+  static constexpr Field nx{72, 18};
+  static constexpr Field ny{54, 18};
+  static constexpr Field nz{36, 18};
+  static constexpr Field p{0, 36};
+};
+
+/// register: any hit ends a ray; error bound of the planes; first depth too far; address = bank
+struct LimitsLayout {
+  static constexpr int kBits = 34;
+  static constexpr Field any_hit{33, 1};
+  static constexpr Field slack{15, 18};
+  static constexpr Field far{0, 15};
 };
 
 /// Targets of the host's write port.
@@ -140,6 +216,8 @@ enum class Target : int {
   ray = 3,
   pencil = 4,
   scene = 5,
+  vertex = 6,
+  limits = 7,
 };
 
 /// Event counters, in the order of the RTL's counter bus.
@@ -151,8 +229,9 @@ enum class Counter : int {
   pairs_tested = 4,  ///< (ray, triangle) pairs given to the ray-triangle subunit
   hits = 5,  ///< rays that hit a triangle
   stall_cycles = 6,  ///< clocks in which a pair waited for an earlier pair of the same ray
+  vertices_tested = 7,  ///< vertices of triangles given to the plane-sphere testers
 };
-inline constexpr int kNumCounters = 7;
+inline constexpr int kNumCounters = 8;
 inline constexpr std::array<std::string_view, kNumCounters> kCounterNames{
     "cycles",
     "spheres_tested",
@@ -161,6 +240,7 @@ inline constexpr std::array<std::string_view, kNumCounters> kCounterNames{
     "pairs_tested",
     "hits",
     "stall_cycles",
+    "vertices_tested",
 };
 
 }  // namespace raplas

@@ -14,6 +14,9 @@ namespace raplas {
 template <int kBits>
 using PackedWord = std::array<std::uint32_t, static_cast<std::size_t>((kBits + 31) / 32)>;
 
+/// The largest sphere, vertex or triangle ID.
+inline constexpr std::uint32_t kLastId = (std::uint32_t{1} << kIdBits) - 1;
+
 /// Puts the low bits of `value` into a field of a packed word.
 template <std::size_t kWords>
 constexpr void insert(std::array<std::uint32_t, kWords>& word, Field field, std::uint32_t value) noexcept {

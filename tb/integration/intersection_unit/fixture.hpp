@@ -135,7 +135,7 @@ class IntersectionUnitBench : public testing::Test {
     std::generate(data.begin(), data.end(), [this] { return static_cast<std::uint32_t>(random_()); });
     dut().set(dut().port("write_i"), write ? 1 : 0);
     dut().set(dut().port("target_i"), write ? 6 + random_() % 2 : random_() % 8);
-    dut().set(dut().port("address_i"), random_() & 0xfffffU);
+    dut().set(dut().port("address_i"), random_() & kLastId);
     dut().set(dut().port("data_i"), data);
   }
 

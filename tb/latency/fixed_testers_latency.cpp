@@ -1,0 +1,50 @@
+// Latency of fixed_testers: objects in turn, with planes that stay.
+#include <random>
+
+#include "latency.hpp"
+#include "raplas/fixed_point.hpp"
+
+namespace raplas {
+namespace {
+
+TEST(Latency, OfFixedTestersIsItsStages) {
+  std::mt19937_64 random(306);
+  const auto word = [&random] { return static_cast<std::int32_t>(random() % (1U << 17)) - (1 << 16); };
+  FixedPlanes planes;
+  const auto load = [&](FixedPlane& plane, std::uint64_t line) {
+    plane = {{word(), word(), word()}, std::int64_t{word()} << 13};
+    dut().set(dut().port("load_i"), 1);
+    dut().set(dut().port("line_i"), line);
+    dut().set(dut().port("plane_i"), plane.pack());
+    dut().clock();
+  };
+  for (std::size_t k = 0; k < kMaxRows; ++k) {
+    load(planes.rows[k], k);
+    load(planes.columns[k], kMaxRows + k);
+  }
+  load(planes.near, kMaxRows + kMaxColumns);
+  load(planes.depth, kMaxRows + kMaxColumns + 1);
+  dut().set(dut().port("load_i"), 0);
+
+  const auto make = [&]() -> Operands {
+    const FixedVec3 centre{word(), word(), word()};
+    const auto radius = static_cast<std::uint32_t>(random() % (1U << 14));
+    const FixedTest test = test_object(planes, centre, radius, 5);
+    PackedWord<4 * kCoordinateBits> object{};
+    for (int k = 0; k < 3; ++k) {
+      insert(object, {(3 - k) * kCoordinateBits, kCoordinateBits},
+             static_cast<std::uint32_t>(centre[static_cast<std::size_t>(k)]));
+    }
+    insert(object, {0, kCoordinateBits}, radius);
+    return {
+        {port_value("object_i", object), port_value("slack_i", 5)},
+        {port_value("rows_meet_o", test.rows_meet), port_value("rows_above_o", test.rows_above),
+         port_value("columns_meet_o", test.columns_meet), port_value("columns_above_o", test.columns_above),
+         port_value("near_o", test.near ? 1 : 0), port_value("z_o", test.z)}};
+  };
+  check_latency(operands_in_turn(Dut::simulator() == "ghdl" ? 4 : 20, make),
+                kPlaneTestStages + kDepthCodeStages);
+}
+
+}  // namespace
+}  // namespace raplas

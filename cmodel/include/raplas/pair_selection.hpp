@@ -1,0 +1,337 @@
+// From tested vertices to (ray, triangle) pairs, clock by clock: entities triangle_lines, ray_bounds,
+// row_selector and column_selector.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "raplas/clocked.hpp"
+#include "raplas/words.hpp"
+
+namespace raplas {
+
+/// A bit for each row, or each column, of a pencil.
+using LineMask = std::uint32_t;
+/// The bounds of 16 lines.
+using LineBounds = std::array<std::uint32_t, kMaxRows>;
+
+/// Bounds as the RTL's ports take them: line k at k * kDepthBits.
+[[nodiscard]] constexpr PackedWord<kMaxRows * kDepthBits> pack(const LineBounds& bounds) noexcept {
+  PackedWord<kMaxRows * kDepthBits> word{};
+  for (int k = 0; k < kMaxRows; ++k) {
+    insert(word, {k * kDepthBits, kDepthBits}, bounds[static_cast<std::size_t>(k)]);
+  }
+  return word;
+}
+
+/// The lines to whose bound something at depth z matters.
+[[nodiscard]] constexpr LineMask lines_beyond(std::uint32_t z, const LineBounds& bounds) noexcept {
+  LineMask lines = 0;
+  for (std::size_t k = 0; k < bounds.size(); ++k) {
+    lines |= (z < bounds[k] ? 1U : 0U) << k;
+  }
+  return lines;
+}
+
+/// A triangle that crosses rows and columns of the pencil.
+struct CrossingTriangle {
+  bool valid = false;
+  LineMask rows = 0;
+  LineMask columns = 0;
+  std::uint32_t z = 0;
+  std::uint32_t triangle = 0;
+};
+
+/// Entity triangle_lines. Test has the fields of FixedTest: rows_meet, rows_above, columns_meet,
+/// columns_above, near, z.
+template <typename Test>
+class TriangleLines {
+ public:
+  /// The triangle that the vertex of the last clock closed.
+  [[nodiscard]] const CrossingTriangle& out() const noexcept { return out_; }
+
+  /// A vertex goes into slot 0, 1 or 2; with emit the slots hold a triangle. rows, columns: masks inherited
+  /// from the spheres above it.
+  void clock(bool valid, std::size_t slot, bool emit, const Test& test, LineMask rows, LineMask columns,
+             std::uint32_t triangle) noexcept {
+    if (valid && slot < slots_.size()) {
+      slots_[slot] = test;
+    }
+    const auto& [a, b, c] = slots_;
+    const LineMask rows_crossed = a.rows_meet | b.rows_meet | c.rows_meet | (a.rows_above ^ b.rows_above) |
+                                  (b.rows_above ^ c.rows_above);
+    const LineMask columns_crossed = a.columns_meet | b.columns_meet | c.columns_meet |
+                                     (a.columns_above ^ b.columns_above) |
+                                     (b.columns_above ^ c.columns_above);
+    out_.rows = rows & rows_crossed;
+    out_.columns = columns & columns_crossed;
+    out_.z = std::min({a.z, b.z, c.z});
+    out_.triangle = triangle;
+    out_.valid = valid && emit && (a.near || b.near || c.near) && out_.rows != 0 && out_.columns != 0;
+  }
+
+ private:
+  std::array<Test, 3> slots_{};
+  CrossingTriangle out_;
+};
+
+/// Entity ray_bounds. What is beyond a ray's bound never matters again in that pencil, so a row's bound,
+/// which is that of its last read, may lag and is never too low.
+class RayBounds {
+ public:
+  /// Clocks from a read to its maximum; a clock later it is the row's bound.
+  static constexpr std::size_t kMaximumStages = kMemoryStages + kLineBits;
+
+  /// A pencil begins: `far` for its rays, 0 elsewhere.
+  struct Clear {
+    bool valid = false;
+    std::size_t bank = 0;
+    std::uint32_t rows = 0;
+    std::uint32_t columns = 0;
+    std::uint32_t far = 0;
+  };
+  struct Update {
+    bool valid = false;
+    std::size_t bank = 0;
+    std::size_t ray = 0;
+    std::uint32_t bound = 0;
+  };
+  struct Read {
+    bool valid = false;
+    std::size_t bank = 0;
+    std::size_t row = 0;
+  };
+
+  [[nodiscard]] bool clearing() const noexcept { return clearing_; }
+  /// Of the row asked for kMemoryStages clocks ago.
+  [[nodiscard]] const LineBounds& bounds() const noexcept { return read_.out(); }
+  [[nodiscard]] const LineBounds& row_bounds(std::size_t bank) const noexcept { return row_bounds_[bank]; }
+
+  void clock(const Clear& clear, const Update& update, const Read& read) noexcept {
+    if (const Maximum& maximum = maximum_.out(); maximum.read.valid) {
+      row_bounds_[maximum.read.bank][maximum.read.row] = maximum.bound;
+    }
+    const LineBounds& row = rows_[read.bank][read.row];  // as it is before the writes of this clock
+    maximum_.clock({read, *std::ranges::max_element(row)});
+    read_.clock(row);
+    if (update.valid) {
+      rows_[update.bank][update.ray / kMaxColumns][update.ray % kMaxColumns] = update.bound;
+    } else if (clearing_) {
+      LineBounds& cleared = rows_[clear_.bank][clear_row_];
+      for (std::size_t k = 0; k < cleared.size(); ++k) {
+        cleared[k] = clear_row_ < clear_.rows && k < clear_.columns ? clear_.far : 0;
+      }
+      ++clear_row_;
+      clearing_ = clear_row_ != kMaxRows;
+    }
+    if (clear.valid) {
+      clear_ = clear;
+      clear_row_ = 0;
+      clearing_ = true;
+      for (std::size_t k = 0; k < kMaxRows; ++k) {
+        row_bounds_[clear.bank][k] = k < clear.rows ? clear.far : 0;
+      }
+    }
+  }
+
+ private:
+  using Bank = std::array<LineBounds, kMaxRows>;
+  struct Maximum {
+    Read read;
+    std::uint32_t bound = 0;
+  };
+
+  std::array<Bank, kPencilBanks> rows_{};
+  std::array<LineBounds, kPencilBanks> row_bounds_{};
+  Delay<LineBounds, kMemoryStages> read_;
+  Delay<Maximum, kMaximumStages> maximum_;
+  bool clearing_ = false;
+  Clear clear_;
+  std::size_t clear_row_ = 0;
+};
+
+/// Word of the queue of triangles: a range of triangles that a pencil meets, or the pencil's end.
+struct QueuedTriangle {
+  static constexpr int kBits = 1 + kBankBits + kIdBits + kCountBits + kDepthBits + kMaxRows + kMaxColumns;
+
+  bool last = false;  ///< end of the pencil: nothing else but bank counts
+  std::uint32_t bank = 0;
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;  ///< 1 ..
+  std::uint32_t z = 0;      ///< none of them is nearer
+  LineMask rows = 0;
+  LineMask columns = 0;
+
+  [[nodiscard]] PackedWord<kBits> pack() const noexcept {
+    PackedWord<kBits> word{};
+    int lsb = 0;
+    const auto put = [&word, &lsb](std::uint32_t value, int width) {
+      insert(word, {lsb, width}, value);
+      lsb += width;
+    };
+    put(columns, kMaxColumns);
+    put(rows, kMaxRows);
+    put(z, kDepthBits);
+    put(count, kCountBits);
+    put(first, kIdBits);
+    put(bank, kBankBits);
+    put(last ? 1 : 0, 1);
+    return word;
+  }
+};
+
+/// Word of the queue of rows: the rays of one row that are to be tested against a triangle, or the pencil's
+/// end.
+struct QueuedRow {
+  static constexpr int kBits = 1 + kBankBits + kIdBits + kDepthBits + kLineBits + kMaxColumns;
+
+  bool last = false;  ///< end of the pencil: nothing else but bank counts
+  std::uint32_t bank = 0;
+  std::uint32_t triangle = 0;
+  std::uint32_t z = 0;
+  std::uint32_t row = 0;
+  LineMask columns = 0;
+
+  friend bool operator==(const QueuedRow&, const QueuedRow&) = default;
+
+  [[nodiscard]] PackedWord<kBits> pack() const noexcept {
+    PackedWord<kBits> word{};
+    int lsb = 0;
+    const auto put = [&word, &lsb](std::uint32_t value, int width) {
+      insert(word, {lsb, width}, value);
+      lsb += width;
+    };
+    put(columns, kMaxColumns);
+    put(row, kLineBits);
+    put(z, kDepthBits);
+    put(triangle, kIdBits);
+    put(bank, kBankBits);
+    put(last ? 1 : 0, 1);
+    return word;
+  }
+
+  [[nodiscard]] static QueuedRow unpack(const PackedWord<kBits>& word) noexcept {
+    QueuedRow row;
+    int lsb = 0;
+    const auto take = [&word, &lsb](int width) {
+      lsb += width;
+      return extract(word, {lsb - width, width});
+    };
+    row.columns = take(kMaxColumns);
+    row.row = take(kLineBits);
+    row.z = take(kDepthBits);
+    row.triangle = take(kIdBits);
+    row.bank = take(kBankBits);
+    row.last = take(1) != 0;
+    return row;
+  }
+};
+
+/// The mask without its lowest line.
+[[nodiscard]] constexpr LineMask without_lowest(LineMask mask) noexcept { return mask & (mask - 1); }
+
+/// Entity row_selector: the rows of a triangle in which it matters to a ray.
+class RowSelector {
+ public:
+  static constexpr std::size_t kRowStages = kMemoryStages + 1;
+  static constexpr std::size_t kQueueRows = std::size_t{1} << kRowFifoDepthLog2;
+
+  /// The row of the last stage and whether it goes into the queue.
+  [[nodiscard]] bool row_valid() const noexcept { return decided_valid_; }
+  [[nodiscard]] const QueuedRow& row() const noexcept { return decided_; }
+
+  /// The front word is taken in this clock, given the words in the queue of rows.
+  [[nodiscard]] bool ready(std::size_t row_count) const noexcept {
+    return rows_left_ == 0 || ends(row_count);
+  }
+
+  /// The row that is asked for in this clock.
+  [[nodiscard]] RayBounds::Read read(std::size_t row_count) const noexcept {
+    const int row = rows_left_ == 0 ? 0 : std::countr_zero(rows_left_);
+    return {goes(row_count) && !triangle_.last, triangle_.bank, static_cast<std::size_t>(row)};
+  }
+
+  /// row_bounds: of the front word's bank; bounds: of the row asked for kMemoryStages clocks ago.
+  void clock(bool valid, const QueuedTriangle& front, const LineBounds& row_bounds, const LineBounds& bounds,
+             std::size_t row_count) noexcept {
+    const Stage& read_now = stages_.out();
+    decided_ = read_now.row;
+    decided_.columns &= lines_beyond(decided_.z, bounds);
+    decided_valid_ = read_now.valid && (decided_.last || decided_.columns != 0);
+
+    const bool go = goes(row_count);
+    const bool take = ready(row_count);
+    stages_.clock({go,
+                   {triangle_.last, triangle_.bank, triangle_.first, triangle_.z,
+                    static_cast<std::uint32_t>(read(row_count).row), triangle_.columns}});
+    if (take) {
+      triangle_ = front;
+      triangle_.rows = front.last ? 1 : front.rows & lines_beyond(front.z, row_bounds);
+      rows_left_ = valid ? triangle_.rows : 0;
+    } else if (go) {
+      rows_left_ = without_lowest(rows_left_);
+      if (rows_left_ == 0) {
+        rows_left_ = triangle_.rows;
+        ++triangle_.first;
+        --triangle_.count;
+      }
+    }
+  }
+
+ private:
+  struct Stage {
+    bool valid = false;
+    QueuedRow row;
+  };
+
+  /// A row, or the end of a pencil, goes: the queue has room behind all that can be under way.
+  [[nodiscard]] bool goes(std::size_t row_count) const noexcept {
+    return rows_left_ != 0 && row_count < kQueueRows - kRowStages;
+  }
+  [[nodiscard]] bool ends(std::size_t row_count) const noexcept {
+    return goes(row_count) && without_lowest(rows_left_) == 0 && (triangle_.count == 1 || triangle_.last);
+  }
+
+  QueuedTriangle triangle_;
+  LineMask rows_left_ = 0;
+  Delay<Stage, kMemoryStages> stages_;
+  bool decided_valid_ = false;
+  QueuedRow decided_;
+};
+
+/// Entity column_selector: the pairs of a row, one a clock.
+class ColumnSelector {
+ public:
+  [[nodiscard]] bool issue(bool stall) const noexcept { return row_.columns != 0 && !stall; }
+  [[nodiscard]] bool last(bool stall) const noexcept { return row_.last && !stall; }
+  [[nodiscard]] std::uint32_t ray() const noexcept {
+    const int column = row_.columns == 0 ? 0 : std::countr_zero(row_.columns);
+    return row_.row * kMaxColumns + static_cast<std::uint32_t>(column);
+  }
+  /// Its triangle, z and bank.
+  [[nodiscard]] const QueuedRow& row() const noexcept { return row_; }
+
+  /// The front row is taken in this clock.
+  [[nodiscard]] bool ready(bool stall) const noexcept {
+    const bool busy = row_.last || row_.columns != 0;
+    return !busy || (!stall && without_lowest(row_.columns) == 0);
+  }
+
+  void clock(bool valid, const QueuedRow& front, bool stall) noexcept {
+    if (ready(stall)) {
+      row_ = front;
+      row_.last = valid && front.last;
+      row_.columns = valid && !front.last ? front.columns : 0;
+    } else if (!stall) {
+      row_.columns = without_lowest(row_.columns);
+    }
+  }
+
+ private:
+  QueuedRow row_;
+};
+
+}  // namespace raplas

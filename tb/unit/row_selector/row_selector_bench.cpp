@@ -1,0 +1,222 @@
+// row_selector: the rows of each triangle in which it matters to a ray, each once and in order, and no clock
+// without one while triangles wait. The bench is ray_bounds and the queue of rows.
+#include <random>
+
+#include "raplas/pair_selection.hpp"
+#include "support/scoreboard.hpp"
+
+namespace raplas {
+namespace {
+
+constexpr std::size_t kTriangles = 400;
+constexpr std::size_t kRowStages = kMemoryStages + 1;
+constexpr std::size_t kQueueRows = std::size_t{1} << kRowFifoDepthLog2;
+const PortStage kStages[]{{"ready_o", 0}, {"pair_bank_o", 0}, {"read_o", 0},    {"bank_o", 0},
+                          {"row_o", 0},   {"row_valid_o", 3}, {"row_word_o", 3}};
+
+/// A row that is to be asked for, or the end of a pencil.
+struct Item {
+  QueuedTriangle word;
+  std::uint32_t triangle = 0;
+  std::uint32_t row = 0;
+};
+
+class RowSelectorBench : public testing::Test {
+ protected:
+  using Words = std::array<std::uint32_t, 2>;
+
+  std::uint32_t number(std::uint32_t mask) { return static_cast<std::uint32_t>(random_() & mask); }
+
+  /// Bounds about as large as z, and all larger if `live`.
+  LineBounds bounds_near(std::uint32_t z, bool live) {
+    LineBounds bounds;
+    for (std::uint32_t& bound : bounds) {
+      const std::uint32_t bit = 1U << (random_() % kDepthBits);
+      const std::array<std::uint32_t, 6> choice{z + 1, z | bit, 0x7fff, z, z & ~bit, number(0x7fff)};
+      bound = std::min(choice[random_() % choice.size()], 0x7fffU);
+      bound = live && bound <= z ? z + 1 + number(0xff) : bound;
+    }
+    return bounds;
+  }
+
+  std::vector<QueuedTriangle> triangles(bool live) {
+    std::vector<QueuedTriangle> list;
+    while (list.size() < kTriangles) {
+      const auto mask = [this] {
+        const LineMask bits = number(0xffff) & number(0xffff);
+        return bits == 0 ? 1U << (random_() % 16) : bits;
+      };
+      QueuedTriangle word{random_() % 10 == 0, number(3), number(kLastId), 1 + number(1) * number(3),
+                          number(0x7fff),      mask(),    mask()};
+      word.count = random_() % 64 == 0 ? 1 + number(0x3f) : word.count;
+      word.z = live ? number(0x3fff) : word.z >> (random_() % 15);
+      list.push_back(word);
+    }
+    return list;
+  }
+
+  /// What becomes of a word that is taken.
+  static std::vector<Item> items_of(const QueuedTriangle& word, const LineBounds& row_bounds) {
+    if (word.last) {
+      return {{word}};
+    }
+    std::vector<Item> items;
+    for (std::uint32_t k = 0; k < word.count; ++k) {
+      for (std::uint32_t row = 0; row < kMaxRows; ++row) {
+        if ((word.rows >> row & 1U) != 0 && word.z < row_bounds[row]) {
+          items.push_back({word, (word.first + k) & kLastId, row});
+        }
+      }
+    }
+    return items;
+  }
+
+  static QueuedRow row_of(const Item& item, const LineBounds& bounds) {
+    QueuedRow row{false, item.word.bank, item.triangle, item.word.z, item.row, 0};
+    for (std::uint32_t column = 0; column < kMaxColumns; ++column) {
+      const bool crossed = (item.word.columns >> column & 1U) != 0;
+      row.columns |= (crossed && item.word.z < bounds[column] ? 1U : 0U) << column;
+    }
+    return row;
+  }
+
+  /// Gives all triangles and checks every clock. Returns the clocks in which the queue had room and a word
+  /// waited, but neither was a row asked for nor a word taken.
+  int run(unsigned word_percent, unsigned take_percent, bool live, int reset_after = -1) {
+    reset_dut();
+    const std::vector<QueuedTriangle> list = triangles(live);
+    std::deque<Item> items;          // still to be asked for
+    std::deque<QueuedRow> expected;  // to be written, in order
+    const auto pass_ends = [&] {
+      while (!items.empty() && items.front().word.last) {
+        expected.push_back({true, items.front().word.bank, 0, 0, 0, 0});
+        items.pop_front();
+      }
+    };
+    RowSelector model;
+    std::deque<std::size_t> queue;  // rows, their number only
+    Delay<LineBounds, kMemoryStages> asked;
+    std::size_t next = 0;
+    bool offered = false;
+    int idle = 0;
+    int drain = 0;
+    std::size_t fullest = 0;
+    for (int clock = 0; drain < 100 && clock != reset_after && !HasFailure(); ++clock) {
+      offered = next < list.size() && (offered || random_() % 100 < word_percent);
+      const QueuedTriangle word = offered ? list[next] : triangles_none();
+      drain += next == list.size() && items.empty() && expected.empty() ? 1 : 0;
+      const LineBounds row_bounds = bounds_near(word.z, live);
+      dut().set(dut().port("valid_i"), offered ? 1 : 0);
+      dut().set(dut().port("word_i"), word.pack());
+      dut().set(dut().port("row_bounds_i"), pack(row_bounds));
+      dut().set(dut().port("bounds_i"), pack(asked.out()));
+      dut().set(dut().port("row_count_i"), queue.size());
+      dut().settle();
+      expect_port(dut().port("pair_bank_o"), word.bank, "pair_bank_o");
+      expect_port(dut().port("ready_o"), model.ready(queue.size()) ? 1 : 0, "ready_o");
+      const RayBounds::Read read = model.read(queue.size());
+      expect_port(dut().port("read_o"), read.valid ? 1 : 0, "read_o");
+      LineBounds row_read = bounds_near(number(0x7fff), live);
+      if (dut().get(dut().port("read_o")) != 0) {
+        pass_ends();
+        if (items.empty()) {
+          ADD_FAILURE() << "a row is asked for that is of no triangle";
+          break;
+        }
+        const Item item = items.front();
+        items.pop_front();
+        expect_port(dut().port("bank_o"), item.word.bank, "bank_o");
+        expect_port(dut().port("row_o"), item.row, "row_o");
+        row_read = bounds_near(item.word.z, live);
+        if (const QueuedRow row = row_of(item, row_read); row.columns != 0) {
+          expected.push_back(row);
+        }
+      }
+      expect_port(dut().port("row_valid_o"), model.row_valid() ? 1 : 0, "row_valid_o");
+      const bool write = dut().get(dut().port("row_valid_o")) != 0;
+      if (write) {
+        if (expected.empty()) {
+          pass_ends();
+        }
+        if (expected.empty()) {
+          ADD_FAILURE() << "a row of no triangle";
+          break;
+        }
+        Words bits{};
+        dut().get(dut().port("row_word_o"), bits);
+        const QueuedRow row = QueuedRow::unpack(bits);
+        if (row.last) {  // nothing else in it counts
+          EXPECT_FALSE(dut().has_unknown(dut().port("row_word_o")));
+          EXPECT_EQ((QueuedRow{true, row.bank, 0, 0, 0, 0}), expected.front());
+          count_checked();
+        } else {
+          expect_port(dut().port("row_word_o"), expected.front().pack(), "row_word_o");
+          EXPECT_EQ(model.row(), expected.front());
+        }
+        EXPECT_LT(queue.size(), kQueueRows) << "overflow";
+        expected.pop_front();
+      }
+      const bool taken = offered && dut().get(dut().port("ready_o")) != 0;
+      const bool room = queue.size() + kRowStages < kQueueRows;
+      const bool last_only = !taken && !read.valid;
+      idle += offered && room && last_only ? 1 : 0;
+      dut().clock();
+      model.clock(offered, word, row_bounds, asked.out(), queue.size());
+      asked.clock(row_read);
+      if (taken) {
+        const auto taken_items = items_of(word, row_bounds);
+        items.insert(items.end(), taken_items.begin(), taken_items.end());
+        ++next;
+        offered = false;
+      }
+      if (!queue.empty() && random_() % 100 < take_percent) {
+        queue.pop_front();
+      }
+      if (write) {
+        queue.push_back(next);
+      }
+      fullest = std::max(fullest, queue.size());
+    }
+    if (reset_after < 0) {
+      EXPECT_EQ(next, list.size());
+      EXPECT_TRUE(expected.empty());
+      EXPECT_TRUE(take_percent > 50 || fullest + kRowStages >= kQueueRows);
+    }
+    return idle;
+  }
+
+  /// What stands at the port while no word waits.
+  QueuedTriangle triangles_none() {
+    return {number(1) != 0, number(3), number(kLastId), 1 + number(0x3f), 0, 0xffff, 0xffff};
+  }
+
+ private:
+  std::mt19937 random_{75};
+};
+
+TEST_F(RowSelectorBench, AsksForARowEveryClockWithoutBubbles) { EXPECT_EQ(run(100, 100, true), 0); }
+TEST_F(RowSelectorBench, DropsRowsAndTrianglesThatCannotMatter) { EXPECT_EQ(run(100, 100, false), 0); }
+TEST_F(RowSelectorBench, NeverOverflowsTheQueueOfRows) { EXPECT_EQ(run(100, 30, true), 0); }
+TEST_F(RowSelectorBench, NeverOverflowsItWhenHardlyTaken) { EXPECT_EQ(run(100, 15, false), 0); }
+TEST_F(RowSelectorBench, NeitherLosesNorRepeatsWhenTrianglesAreRare) { run(10, 70, false); }
+TEST_F(RowSelectorBench, ForgetsItsTriangleWhenReset) {
+  for (int clocks = 1; clocks < 40; ++clocks) {
+    run(100, 50, true, clocks);
+    dut().set(dut().port("rst_i"), 1);
+    dut().clock();
+    dut().set(dut().port("rst_i"), 0);
+    dut().set(dut().port("valid_i"), 0);
+    dut().set(dut().port("row_count_i"), 0);
+    for (int k = 0; k < 6; ++k) {
+      dut().settle();
+      expect_port(dut().port("ready_o"), 1, "ready_o");
+      expect_port(dut().port("read_o"), 0, "read_o");
+      expect_port(dut().port("row_valid_o"), 0, "row_valid_o");
+      dut().clock();
+    }
+  }
+  run(60, 60, false);
+}
+
+}  // namespace
+}  // namespace raplas

@@ -129,6 +129,8 @@ architecture rtl of intersection_unit is
   signal best_ray, stored_ray : ray_id_t;
   signal best, stored_result  : result_word_t;
   signal pair_done, hit, stored, first_hit : std_ulogic;
+  signal result_bank : std_ulogic_vector(BANK_BITS - 1 downto 0);
+  signal host_ray    : std_ulogic_vector(BANK_BITS + 2 * LINE_BITS - 1 downto 0);
 
 begin
 
@@ -424,19 +426,25 @@ begin
       result_o      => stored_result
     );
 
+  -- two of the banks are used
+  result_bank <= '0' & bank;
+  host_ray    <= '0' & result_ray_i;
+
   result_memory_i : entity raplas.result_memory
     port map (
       clk_i        => clk_i,
       rst_i        => rst_i,
       clear_i      => starting,
+      clear_bank_i => result_bank,
       clearing_o   => clearing,
-      bank_i       => bank,
       write_i      => stored,
+      write_bank_i => result_bank,
       write_ray_i  => stored_ray,
       write_data_i => stored_result,
+      best_bank_i  => result_bank,
       best_ray_i   => best_ray,
       best_o       => best,
-      host_ray_i   => result_ray_i,
+      host_ray_i   => host_ray,
       host_data_o  => result_o
     );
 

@@ -10,7 +10,8 @@
 -- the shifted operand at the larger one's last bit before it subtracts.
 -- Two DSP48 that share the C port of their tile: the exponent in bits 35..29,
 -- the larger significand in the low bits. Neither disturbs the other: under the
--- exponents 0 is subtracted, and over the significands nothing is read.
+-- exponents 0 is subtracted, and over the significands nothing is read. With
+-- EXPONENT_DSP = false one DSP48: exponents are subtracted in fabric.
 -- model: cmodel/include/raplas/float.hpp     tests: tb/unit/fp_add
 -- ============================================================================
 library ieee;
@@ -22,8 +23,9 @@ use raplas.fp24_pkg.all;
 
 entity fp_add is
   generic (
-    GUARD_BITS : natural range 0 to 2 := 2;
-    SUBTRACT   : boolean := false   -- true: a - b
+    GUARD_BITS   : natural range 0 to 2 := 2;
+    SUBTRACT     : boolean := false;   -- true: a - b
+    EXPONENT_DSP : boolean := true     -- false: exponents are subtracted in fabric
   );
   port (
     clk_i : in  std_ulogic;
@@ -69,7 +71,8 @@ architecture rtl of fp_add is
 
   signal c           : std_ulogic_vector(47 downto 0);
   signal exponent_ab : std_ulogic_vector(35 downto 0);
-  signal difference  : std_ulogic_vector(47 downto 0);
+  signal exponent_p  : std_ulogic_vector(47 downto 0);
+  signal difference  : unsigned(EXPONENT_BITS - 1 downto 0);
   signal smaller     : std_ulogic_vector(35 downto 0);
   signal opposite    : std_ulogic;
   signal sum         : std_ulogic_vector(47 downto 0);
@@ -132,23 +135,39 @@ begin
   c_p : process (a_i, r.s2.larger)
   begin
     c <= (others => '0');
-    c(EXPONENT_LSB + EXPONENT_BITS - 1 downto EXPONENT_LSB) <= std_ulogic_vector(exponent_of(a_i));
+    if EXPONENT_DSP then
+      c(EXPONENT_LSB + EXPONENT_BITS - 1 downto EXPONENT_LSB)
+        <= std_ulogic_vector(exponent_of(a_i));
+    end if;
     c(ALIGNED_BITS - 1 downto GUARD_BITS) <= std_ulogic_vector(r.s2.larger);
   end process c_p;
 
-  exponent_ab <= std_ulogic_vector(exponent_of(b_i))
-    & std_ulogic_vector(to_unsigned(0, EXPONENT_LSB));
+  exponent_dsp_g : if EXPONENT_DSP generate
+    exponent_ab <= std_ulogic_vector(exponent_of(b_i))
+      & std_ulogic_vector(to_unsigned(0, EXPONENT_LSB));
 
-  exponent_i : entity raplas.dsp_addsub
-    generic map (AB_REG => 0, C_REG => 0)
-    port map (
-      clk_i      => clk_i,
-      subtract_i => '1',
-      carry_i    => '0',
-      c_i        => c,
-      ab_i       => exponent_ab,
-      p_o        => difference
-    );
+    exponent_i : entity raplas.dsp_addsub
+      generic map (AB_REG => 0, C_REG => 0)
+      port map (
+        clk_i      => clk_i,
+        subtract_i => '1',
+        carry_i    => '0',
+        c_i        => c,
+        ab_i       => exponent_ab,
+        p_o        => exponent_p
+      );
+
+    difference <= unsigned(exponent_p(EXPONENT_LSB + EXPONENT_BITS - 1 downto EXPONENT_LSB));
+  end generate exponent_dsp_g;
+
+  exponent_fabric_g : if not EXPONENT_DSP generate
+    difference_p : process (clk_i)
+    begin
+      if rising_edge(clk_i) then
+        difference <= exponent_of(a_i) - exponent_of(b_i);
+      end if;
+    end process difference_p;
+  end generate exponent_fabric_g;
 
   significand_i : entity raplas.dsp_addsub
     generic map (AB_REG => 1, C_REG => 0)
@@ -176,7 +195,7 @@ begin
     v.s1.swap := magnitude_of(a_i) < magnitude_of(b_i);
 
     -- s2: the difference is valid with s1
-    distance_v := unsigned(difference(EXPONENT_LSB + EXPONENT_BITS - 1 downto EXPONENT_LSB));
+    distance_v := difference;
     if r.s1.swap then
       larger_v   := r.s1.b;
       smaller_v  := r.s1.a;

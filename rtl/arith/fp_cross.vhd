@@ -13,7 +13,8 @@ use raplas.raplas_constants.all;
 
 entity fp_cross is
   generic (
-    GUARD_BITS : natural range 0 to 2 := 2
+    GUARD_BITS   : natural range 0 to 2 := 2;
+    EXPONENT_DSP : boolean := true   -- false: exponents in fabric, half the DSP48s
   );
   port (
     clk_i   : in  std_ulogic;
@@ -36,6 +37,7 @@ begin
     b(k) <= b_i((3 - k) * FP_BITS - 1 downto (2 - k) * FP_BITS);
 
     positive_i : entity raplas.fp_mul
+      generic map (EXPONENT_DSP => EXPONENT_DSP)
       port map (
         clk_i     => clk_i,
         a_i       => a((k + 1) mod 3),
@@ -44,6 +46,7 @@ begin
       );
 
     negative_i : entity raplas.fp_mul
+      generic map (EXPONENT_DSP => EXPONENT_DSP)
       port map (
         clk_i     => clk_i,
         a_i       => a((k + 2) mod 3),
@@ -52,7 +55,8 @@ begin
       );
 
     difference_i : entity raplas.fp_add
-      generic map (GUARD_BITS => GUARD_BITS, SUBTRACT => true)
+      generic map (GUARD_BITS => GUARD_BITS, SUBTRACT => true,
+                   EXPONENT_DSP => EXPONENT_DSP)
       port map (
         clk_i => clk_i,
         a_i   => left_product(k),

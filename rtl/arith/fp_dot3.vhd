@@ -14,7 +14,8 @@ use raplas.raplas_constants.all;
 
 entity fp_dot3 is
   generic (
-    GUARD_BITS : natural range 0 to 2 := 2
+    GUARD_BITS   : natural range 0 to 2 := 2;
+    EXPONENT_DSP : boolean := true   -- false: exponents in fabric, half the DSP48s
   );
   port (
     clk_i : in  std_ulogic;
@@ -32,6 +33,7 @@ begin
 
   products_g : for k in 0 to 2 generate
     mul_i : entity raplas.fp_mul
+      generic map (EXPONENT_DSP => EXPONENT_DSP)
       port map (
         clk_i     => clk_i,
         a_i       => a_i((k + 1) * FP_BITS - 1 downto k * FP_BITS),
@@ -41,7 +43,7 @@ begin
   end generate products_g;
 
   xy_i : entity raplas.fp_add
-    generic map (GUARD_BITS => GUARD_BITS)
+    generic map (GUARD_BITS => GUARD_BITS, EXPONENT_DSP => EXPONENT_DSP)
     port map (
       clk_i => clk_i,
       a_i   => products(3 * FP_BITS - 1 downto 2 * FP_BITS),
@@ -54,7 +56,7 @@ begin
     port map (clk_i => clk_i, rst_i => '0', data_i => products(FP_BITS - 1 downto 0), data_o => z);
 
   dot_i : entity raplas.fp_add
-    generic map (GUARD_BITS => GUARD_BITS)
+    generic map (GUARD_BITS => GUARD_BITS, EXPONENT_DSP => EXPONENT_DSP)
     port map (clk_i => clk_i, a_i => xy, b_i => z, sum_o => dot_o);
 
 end architecture rtl;

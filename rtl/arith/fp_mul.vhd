@@ -4,7 +4,8 @@
 --   @1  significands multiplied, exponents into registers    fp_product
 --   @2  exponents added, bias subtracted                     fp_product
 --   @3  normalise by one bit, saturate or flush, pack
--- Underflow gives +0, overflow the largest finite number. Two DSP48.
+-- Underflow gives +0, overflow the largest finite number. Two DSP48;
+-- one with EXPONENT_DSP = false.
 -- model: cmodel/include/raplas/float.hpp     tests: tb/unit/fp_mul
 -- ============================================================================
 library ieee;
@@ -15,6 +16,9 @@ use raplas.raplas_constants.all;
 use raplas.fp24_pkg.all;
 
 entity fp_mul is
+  generic (
+    EXPONENT_DSP : boolean := true   -- false: exponents are added in fabric
+  );
   port (
     clk_i     : in  std_ulogic;
     a_i       : in  fp24_t;
@@ -33,6 +37,7 @@ architecture rtl of fp_mul is
 begin
 
   product_i : entity raplas.fp_product
+    generic map (EXPONENT_DSP => EXPONENT_DSP)
     port map (
       clk_i         => clk_i,
       a_i           => a_i,

@@ -5,7 +5,8 @@
 --       exponents into registers                 dsp_addsub
 --   @2  product out, exponents added, minus bias
 -- |a| * |b| = significand * 2^(exponent - EXPONENT_BIAS - 2 * FRACTION_BITS),
--- significand 0 or 2^32 .. 2^34 - 1. Two DSP48 of one tile.
+-- significand 0 or 2^32 .. 2^34 - 1. Two DSP48 of one tile; with EXPONENT_DSP =
+-- false one, and the exponents are added in fabric, in the same clocks.
 -- model: cmodel/include/raplas/float.hpp     tests: tb/unit/fp_mul, tb/unit/nearest_hit
 -- ============================================================================
 library ieee;
@@ -16,6 +17,9 @@ use raplas.raplas_constants.all;
 use raplas.fp24_pkg.all;
 
 entity fp_product is
+  generic (
+    EXPONENT_DSP : boolean := true   -- false: exponents are added in fabric
+  );
   port (
     clk_i         : in  std_ulogic;
     a_i           : in  fp24_t;
@@ -31,6 +35,8 @@ architecture rtl of fp_product is
   signal c  : std_ulogic_vector(47 downto 0);
   signal ab : std_ulogic_vector(35 downto 0);
   signal p  : std_ulogic_vector(47 downto 0);
+
+  signal sum_s1 : signed(EXPONENT_BITS + 1 downto 0);
 begin
 
   a <= std_ulogic_vector(significand_of(a_i));
@@ -58,17 +64,30 @@ begin
     ab       <= std_ulogic_vector(resize(offset_v, 36));
   end process operands_p;
 
-  exponent_i : entity raplas.dsp_addsub
-    generic map (AB_REG => 1, C_REG => 1)
-    port map (
-      clk_i      => clk_i,
-      subtract_i => '0',
-      carry_i    => '1',
-      c_i        => c,
-      ab_i       => ab,
-      p_o        => p
-    );
+  exponent_dsp_g : if EXPONENT_DSP generate
+    exponent_i : entity raplas.dsp_addsub
+      generic map (AB_REG => 1, C_REG => 1)
+      port map (
+        clk_i      => clk_i,
+        subtract_i => '0',
+        carry_i    => '1',
+        c_i        => c,
+        ab_i       => ab,
+        p_o        => p
+      );
 
-  exponent_o <= p(EXPONENT_BITS + 1 downto 0);
+    exponent_o <= p(EXPONENT_BITS + 1 downto 0);
+  end generate exponent_dsp_g;
+
+  exponent_fabric_g : if not EXPONENT_DSP generate
+    exponent_p : process (clk_i)
+    begin
+      if rising_edge(clk_i) then
+        sum_s1 <= signed(resize(exponent_of(a_i), EXPONENT_BITS + 2))
+          + signed(resize(exponent_of(b_i), EXPONENT_BITS + 2)) - EXPONENT_BIAS;
+        exponent_o <= std_ulogic_vector(sum_s1);
+      end if;
+    end process exponent_p;
+  end generate exponent_fabric_g;
 
 end architecture rtl;

@@ -6,7 +6,8 @@
 -- t'/d < best.t'/best.d without dividing. The two products are compared in all
 -- their 34 bits, neither rounded nor saturated, so that "nearer" is a total
 -- order and the nearest hit doesn't depend on the order of the tests. Equal:
--- the lower triangle ID is nearer. No best hit yet: nearer. Four DSP48.
+-- the lower triangle ID is nearer. No best hit yet: nearer. Four DSP48,
+-- two with EXPONENT_DSP = false.
 -- model: cmodel/include/raplas/ray_triangle.hpp     tests: tb/unit/nearest_hit
 -- ============================================================================
 library ieee;
@@ -16,6 +17,9 @@ library raplas;
 use raplas.raplas_constants.all;
 
 entity nearest_hit is
+  generic (
+    EXPONENT_DSP : boolean := true   -- false: exponents are added in fabric
+  );
   port (
     clk_i      : in  std_ulogic;
     t_i        : in  fp24_t;                                  -- t' > 0
@@ -59,10 +63,12 @@ begin
   best <= unpack_result(best_i);
 
   this_i : entity raplas.fp_product
+    generic map (EXPONENT_DSP => EXPONENT_DSP)
     port map (clk_i => clk_i, a_i => t_i, b_i => best.d, significand_o => this_sig,
               exponent_o => this_exponent);
 
   best_product_i : entity raplas.fp_product
+    generic map (EXPONENT_DSP => EXPONENT_DSP)
     port map (clk_i => clk_i, a_i => best.t, b_i => d_i, significand_o => best_sig,
               exponent_o => best_exponent);
 

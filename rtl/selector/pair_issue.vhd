@@ -12,11 +12,14 @@ library raplas;
 use raplas.raplas_constants.all;
 
 entity pair_issue is
+  generic (
+    RAY_BITS : positive := 2 * LINE_BITS
+  );
   port (
     clk_i   : in  std_ulogic;
     rst_i   : in  std_ulogic;
     valid_i : in  std_ulogic;                                    -- a pair waits
-    ray_i   : in  std_ulogic_vector(2 * LINE_BITS - 1 downto 0);
+    ray_i   : in  std_ulogic_vector(RAY_BITS - 1 downto 0);
     issue_o : out std_ulogic;                                    -- it goes in this clock
     stall_o : out std_ulogic                                     -- it is held back in this clock
   );
@@ -29,7 +32,7 @@ architecture rtl of pair_issue is
 
   type recent_t is record
     valid : std_ulogic;
-    ray   : std_ulogic_vector(2 * LINE_BITS - 1 downto 0);
+    ray   : std_ulogic_vector(RAY_BITS - 1 downto 0);
   end record;
   type history_t is array (1 to HAZARD_CLOCKS - 1) of recent_t;   -- pair of k clocks ago
 

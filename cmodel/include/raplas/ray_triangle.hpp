@@ -1,4 +1,5 @@
-// Ray-triangle test and nearest hit, value-exact: entities ray_triangle and nearest_hit.
+// Ray-triangle test and nearest hit, value-exact: entities ray_solver, ray_triangle, nearest_hit and
+// depth_quotient.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +8,9 @@
 
 namespace raplas {
 
-inline constexpr int kRayTriangleStages =
-    kAddStages + (kMulStages + kAddStages) + (kMulStages + 2 * kAddStages) + kAddStages + kMulStages;
+inline constexpr int kRaySolverStages =
+    kAddStages + (kMulStages + kAddStages) + (kMulStages + 2 * kAddStages) + kAddStages;
+inline constexpr int kRayTriangleStages = kRaySolverStages + kMulStages;
 
 /// What a triangle is to a ray: t = t'/d, u = u'/d, v = v'/d, after the sign rule.
 template <typename F>
@@ -37,6 +39,31 @@ template <typename F>
   s.hit = !s.t.sign() && !s.t.is_zero() && !s.d.is_zero() && !s.u.sign() && !s.v.sign() &&
           sum.magnitude() <= s.d.magnitude();
   return s;
+}
+
+/// t'/d as a depth code, at most 3 codes too low; signs are ignored, and a zero's fraction is taken as a
+/// number's. Codes below 2^kDepthFractionBits go on downward with exponent 0; the largest is the last but
+/// one.
+template <typename F>
+[[nodiscard]] constexpr std::uint32_t depth_quotient(F t, F d) noexcept {
+  static_assert(F::kFractionBits == kFractionBits && F::kExponentBits == kExponentBits);
+  constexpr std::uint32_t kHidden = std::uint32_t{1} << kFractionBits;
+  constexpr std::uint32_t kOne = std::uint32_t{1} << kDepthFractionBits;
+  constexpr std::uint32_t kLast = (std::uint32_t{1} << kDepthBits) - 2;
+  const std::uint32_t top = (d.bits() & (kHidden - 1)) >> (kFractionBits - kDepthFractionBits);
+  const std::uint32_t reciprocal = 2 * kOne * kOne / (kOne + 1 + top);                // s1
+  const std::uint32_t product = ((t.bits() & (kHidden - 1)) | kHidden) * reciprocal;  // s3
+  const bool carry = product >> (kFractionBits + kDepthFractionBits + 1) != 0;
+  const int exponent = t.exponent() - d.exponent() + kDepthBias - (carry ? 0 : 1);
+  const std::uint32_t fraction = (product >> (kFractionBits + (carry ? 1 : 0))) & (kOne - 1);
+  if (exponent < 0) {
+    return 0;
+  }
+  if (exponent >= 1 << kDepthExponentBits) {
+    return kLast;
+  }
+  const std::uint32_t code = static_cast<std::uint32_t>(exponent) * kOne + fraction;
+  return code < kLast ? code : kLast;
 }
 
 /// t'/d < best.t'/best.d in exact arithmetic; equal: the lower triangle ID; no best hit yet: yes.

@@ -2,40 +2,18 @@
 // bubbles. GUARD_BITS is the unit's generic. The bench plays the Result memory.
 #include <random>
 
-#include "operands.hpp"
-#include "oracle.hpp"
-#include "raplas/ray_triangle.hpp"
+#include "support/ray_triangle_pairs.hpp"
 #include "support/scoreboard.hpp"
 
 namespace raplas {
 namespace {
 
-using F = std::conditional_t<GUARD_BITS == 0, Fp24Paper, Fp24>;
-using Vector = std::array<std::uint32_t, 3>;
 const int kCases = Dut::simulator() == "ghdl" ? 1'500 : 30'000;
 constexpr int kBestStage = kRayTriangleStages - kMulStages - kMemoryStages;  // the best hit is asked for
 const PortStage kHitStage{"hit_o", kRayTriangleStages};
 const PortStage kWriteStage{"write_o", kRayTriangleStages};
 const PortStage kResultStage{"result_o", kRayTriangleStages};
 const PortStage kBestStageOf{"best_ray_o", kBestStage};
-
-std::uint32_t add(std::uint32_t a, std::uint32_t b) {
-  return GUARD_BITS == 0 ? oracle::add_cut(a, b, 0) : oracle::add(a, b);
-}
-std::uint32_t subtract(std::uint32_t a, std::uint32_t b) { return add(a, oracle::negate(b)); }
-
-std::uint32_t dot(const Vector& a, const Vector& b) {
-  return add(add(oracle::multiply(a[0], b[0]), oracle::multiply(a[1], b[1])), oracle::multiply(a[2], b[2]));
-}
-Vector cross(const Vector& a, const Vector& b) {
-  Vector result{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t y = (k + 1) % 3;
-    const std::size_t z = (k + 2) % 3;
-    result[k] = subtract(oracle::multiply(a[y], b[z]), oracle::multiply(a[z], b[y]));
-  }
-  return result;
-}
 
 struct Expected {
   bool valid = false;
@@ -45,25 +23,6 @@ struct Expected {
   ResultWord<F> solution;
   ResultWord<F> best;
 };
-
-Expected solve_by_oracle(const Vector& v0, const Vector& e1, const Vector& e2, const Vector& n,
-                         const Vector& o, const Vector& d) {
-  const Vector t{subtract(v0[0], o[0]), subtract(v0[1], o[1]), subtract(v0[2], o[2])};
-  const Vector dxt = cross(d, t);
-  const std::uint32_t nd = dot(n, d);
-  const std::uint32_t sign = nd & 0x800000U;
-  const auto signed_by = [sign](std::uint32_t x) { return (x >> 16 & 127) == 0 ? 0U : x ^ sign; };
-  const std::uint32_t tt = signed_by(dot(n, t));
-  const std::uint32_t dd = signed_by(nd);
-  const std::uint32_t uu = signed_by(oracle::negate(dot(dxt, e2)));
-  const std::uint32_t vv = signed_by(dot(dxt, e1));
-  const auto real = [](std::uint32_t x) { return oracle::Real(x); };
-  Expected e;
-  e.hit = mpfr_sgn(real(tt).get()) > 0 && mpfr_sgn(real(dd).get()) > 0 && mpfr_sgn(real(uu).get()) >= 0 &&
-          mpfr_sgn(real(vv).get()) >= 0 && mpfr_cmp(real(add(uu, vv)).get(), real(dd).get()) <= 0;
-  e.solution = {e.hit, 0, F::from_bits(tt), F::from_bits(dd), F::from_bits(uu), F::from_bits(vv)};
-  return e;
-}
 
 class RayTriangle : public testing::Test {
  protected:
@@ -113,52 +72,13 @@ class RayTriangle : public testing::Test {
   }
 
  private:
-  /// Puts a pair on the inputs: four kinds of triangles in turn.
   static Expected apply(OperandPairs& pairs, int k) {
-    const auto number = [&](int low, int high) { return pairs.word(63 + pairs.between(low, high)); };
-    const auto vector = [&](int low, int high) {
-      return Vector{number(low, high), number(low, high), number(low, high)};
-    };
-    Vector o = vector(-4, 0);
-    Vector d = vector(-3, 0);
-    Vector e1 = vector(-5, 0);
-    Vector e2 = vector(-5, 0);
-    Vector v0 = vector(-4, 0);
-    if (k % 8 == 7) {  // anything, ends of the range included
-      o = vector(-64, 64);
-      e1 = vector(-64, 64);
-      v0 = vector(-64, 64);
-      if (k % 16 == 15) {
-        d = vector(-64, 64);
-        e2 = vector(-64, 64);
-      }
-    } else if (k % 8 == 3) {  // sums of unlike addends, and products near the ends of the range
-      const int middle = k % 16 == 3 ? 0 : pairs.between(-1, 1) * 28;
-      d = vector(-16, 16);
-      e1 = vector(middle - 8, middle + 8);
-      e2 = vector(middle - 8, middle + 8);
-      o = vector(-16, 16);
-      v0 = vector(-16, 16);
-    } else if (k % 2 == 0) {  // aimed at a point of the triangle, often at its rim
-      const double u = pairs.between(0, 8) / 8.0;
-      const double v = (1 - u) * pairs.between(0, 8) / 8.0;
-      const double s = (pairs.bits(1) != 0 ? 1 : -1) * (1 + pairs.between(0, 3));
-      for (std::size_t i = 0; i < 3; ++i) {
-        const auto value = [](std::uint32_t x) { return Fp24::from_bits(x).to_double(); };
-        const double point = value(v0[i]) + u * value(e1[i]) + v * value(e2[i]);
-        o[i] = Fp24::from_double(point - s * value(d[i])).bits();
-      }
-    }
-    const Vector n = cross(e1, e2);
-    Expected e = solve_by_oracle(v0, e1, e2, n, o, d);
+    const Solution<F> s = apply_pair(pairs, k);
+    Expected e;
+    e.hit = s.hit;
+    e.solution = {s.hit, 0, s.t, s.d, s.u, s.v};
     e.ray = pairs.bits(8);
     e.id = pairs.bits(20);
-    const auto vec = [](const Vector& v) {
-      return Vec3<F>{F::from_bits(v[0]), F::from_bits(v[1]), F::from_bits(v[2])};
-    };
-    dut().set(dut().port("triangle_i"), TriangleWord<F>{vec(v0), vec(e1), vec(e2), vec(n)}.pack());
-    dut().set(dut().port("direction_i"), pack_ray(vec(d)));
-    dut().set(dut().port("origin_i"), pack_ray(vec(o)));
     dut().set(dut().port("ray_i"), e.ray);
     dut().set(dut().port("triangle_id_i"), e.id);
     return e;
@@ -167,7 +87,7 @@ class RayTriangle : public testing::Test {
   /// A best hit: none, nearer, farther, or the same distance.
   static ResultWord<F> best_for(const Expected& asks, std::mt19937& random) {
     ResultWord<F> best{random() % 4 != 0,
-                       static_cast<std::uint32_t>(random() & 0xfffff),
+                       static_cast<std::uint32_t>(random() & kLastId),
                        asks.solution.t,
                        asks.solution.d,
                        {},

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 
 namespace raplas {
 
@@ -22,9 +23,11 @@ namespace raplas {
 /// before its extension: tests of one program that run at the same time need files of their own.
 class Figures {
  public:
+  explicit Figures(std::string command = "make prove") : command_(std::move(command)) {}
+
   template <typename Value>
   void add(const std::string& name, Value value, const char* unit) {
-    figures_[name] = {{"value", value}, {"unit", unit}, {"command", "make prove"}};
+    figures_[name] = {{"value", value}, {"unit", unit}, {"command", command_}};
   }
 
   void write(const char* suffix = "") const {
@@ -41,6 +44,7 @@ class Figures {
   }
 
  private:
+  std::string command_;
   nlohmann::ordered_json figures_;
 };
 

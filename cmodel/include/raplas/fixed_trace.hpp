@@ -1,0 +1,245 @@
+// What profile raplas finds, without clocks: the definition of a hit, and a walk in which every skip can be
+// switched off. The clocked unit, the RTL and this walk must give the same hits, whatever is skipped.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "raplas/fixed_point.hpp"
+#include "raplas/ray_triangle.hpp"
+
+namespace raplas {
+
+/// Sphere, Vertex and Triangle memories and the scene register.
+template <typename F>
+struct FixedSceneMemory {
+  std::vector<NodeWord> nodes;
+  std::vector<VertexWord> vertices;
+  std::vector<TriangleWord<F>> triangles;
+  SceneWord scene;
+};
+
+/// One bank of the Plane and Ray memories and its registers. Rays have a depth of 1 along the pencil's axis.
+template <typename F>
+struct FixedPencilMemory {
+  PencilWord<F> pencil;
+  LimitsWord limits;
+  FixedPlanes planes;
+  std::array<Vec3<F>, std::size_t{kMaxRows} * kMaxColumns> rays;  ///< ray (r, c) at r * kMaxColumns + c
+};
+
+/// A triangle as the plane tests of its vertices leave it: which rays may hit it, and how deep it begins.
+struct CrossedLines {
+  std::uint32_t rows = 0;     ///< row planes that it crosses or comes near
+  std::uint32_t columns = 0;  ///< column planes likewise
+  bool near = false;          ///< not wholly behind
+  std::uint32_t z = 0;        ///< depth code: no point of it is less deep
+};
+
+/// A line is crossed if a vertex meets its plane or the vertices are not all on one side.
+[[nodiscard]] constexpr CrossedLines crossed_lines(const std::array<FixedTest, 3>& vertices) noexcept {
+  CrossedLines lines{0, 0, false, std::numeric_limits<std::uint32_t>::max()};
+  std::uint32_t rows_all = ~std::uint32_t{0};
+  std::uint32_t columns_all = ~std::uint32_t{0};
+  std::uint32_t rows_any = 0;
+  std::uint32_t columns_any = 0;
+  for (const FixedTest& v : vertices) {
+    lines.rows |= v.rows_meet;
+    lines.columns |= v.columns_meet;
+    rows_any |= v.rows_above;
+    rows_all &= v.rows_above;
+    columns_any |= v.columns_above;
+    columns_all &= v.columns_above;
+    lines.near = lines.near || v.near;
+    lines.z = v.z < lines.z ? v.z : lines.z;
+  }
+  lines.rows |= rows_any & ~rows_all;
+  lines.columns |= columns_any & ~columns_all;
+  return lines;
+}
+
+/// No hit bounds the ray: more than any depth_lower().
+inline constexpr std::uint32_t kNoBound = (1U << kDepthBits) - 1;
+
+/// What a hit with quotient code `q` leaves of its ray: objects at this depth code or beyond are hidden.
+[[nodiscard]] constexpr std::uint32_t bound_of(std::uint32_t q) noexcept {
+  return std::min(q + std::uint32_t{kQuotientError}, kNoBound);
+}
+
+/// What can be skipped. None of it changes a hit.
+struct Skips {
+  bool tree = true;           ///< off: the spheres of all leaves are tested, no inner node
+  bool inherited = true;      ///< off: a child is tested in all rows and columns
+  bool behind = true;         ///< near plane: objects wholly behind the origin
+  bool hidden = true;         ///< depth: objects beyond the hits that their rays have, or beyond `far`
+  bool nearest_first = true;  ///< off: children in the order of the memory
+  bool rectangles = true;     ///< off: a triangle goes to all rays that its leaf's sphere meets
+  bool ended = true;          ///< off: rays of an any-hit pencil go on after their first hit
+};
+
+/// Counts of one pencil.
+struct FixedCounts {
+  std::uint64_t spheres = 0;
+  std::uint64_t vertices = 0;
+  std::uint64_t pairs = 0;
+  std::uint64_t hits = 0;    ///< rays that hit
+  std::uint64_t strays = 0;  ///< pairs that Moeller's test took, outside of the triangle's lines or depth
+};
+
+/// The walk of one pencil, done by the constructor.
+template <typename F>
+class FixedTrace {
+ public:
+  static constexpr std::size_t kRays = std::size_t{kMaxRows} * kMaxColumns;
+  using Results = std::array<ResultWord<F>, kRays>;
+
+  FixedTrace(const FixedSceneMemory<F>& scene, const FixedPencilMemory<F>& pencil, const Skips& skips = {})
+      : scene_(scene), pencil_(pencil), skips_(skips) {
+    const auto low_bits = [](std::uint32_t count) { return (std::uint32_t{1} << count) - 1; };
+    rows_ = low_bits(pencil.pencil.rows);
+    columns_ = low_bits(pencil.pencil.columns);
+    bounds_.fill(pencil.limits.far);
+    if (skips.tree) {
+      stack_.push_back({false, scene.scene.first, scene.scene.count, rows_, columns_, 0});
+    } else {
+      for (const NodeWord& node : scene.nodes) {
+        if (node.leaf) {
+          push_if_met(node, rows_, columns_);
+        }
+      }
+    }
+    walk();
+    for (const ResultWord<F>& result : results_) {
+      counts_.hits += result.hit ? 1 : 0;
+    }
+  }
+
+  /// The nearest hit of each ray; of an any-hit pencil only the hit bits don't depend on what is skipped.
+  [[nodiscard]] const Results& results() const noexcept { return results_; }
+  [[nodiscard]] const FixedCounts& counts() const noexcept { return counts_; }
+
+ private:
+  struct Range {
+    bool leaf;
+    std::uint32_t first;
+    std::uint32_t count;
+    std::uint32_t rows;
+    std::uint32_t columns;
+    std::uint32_t z;
+  };
+
+  void walk() {
+    while (!stack_.empty()) {
+      Range range = stack_.back();
+      stack_.pop_back();
+      range.rows &= rows_in_front(range.z);
+      if (range.rows == 0) {
+        continue;
+      }
+      if (range.leaf) {
+        read_triangles(range);
+        continue;
+      }
+      const std::size_t siblings = stack_.size();
+      const auto inherited = [&](std::uint32_t mask, std::uint32_t all) {
+        return skips_.inherited ? mask : all;
+      };
+      for (std::uint32_t k = 0; k < range.count; ++k) {
+        push_if_met(scene_.nodes[range.first + k], inherited(range.rows, rows_),
+                    inherited(range.columns, columns_));
+      }
+      const auto first = stack_.begin() + static_cast<std::ptrdiff_t>(siblings);
+      if (skips_.nearest_first) {
+        std::stable_sort(first, stack_.end(), [](const Range& a, const Range& b) { return a.z > b.z; });
+      } else {
+        std::reverse(first, stack_.end());
+      }
+    }
+  }
+
+  void push_if_met(const NodeWord& node, std::uint32_t rows, std::uint32_t columns) {
+    const FixedTest test = test_object(pencil_.planes, node.centre, node.radius, pencil_.limits.slack);
+    ++counts_.spheres;
+    rows &= test.rows_meet;
+    columns &= test.columns_meet;
+    if (rows != 0 && columns != 0 && (test.near || !skips_.behind)) {
+      stack_.push_back({node.leaf, node.first, node.count, rows, columns, test.z});
+    }
+  }
+
+  void read_triangles(const Range& leaf) {
+    std::array<FixedTest, 3> slots;
+    for (std::uint32_t k = leaf.first; k < leaf.first + leaf.count; ++k) {
+      const VertexWord& vertex = scene_.vertices[k];
+      slots[vertex.slot] = test_object(pencil_.planes, vertex.point, 0, pencil_.limits.slack);
+      counts_.vertices += skips_.rectangles ? 1 : 0;
+      if (vertex.emit) {
+        test_pairs(leaf, crossed_lines(slots), vertex.triangle);
+      }
+    }
+  }
+
+  void test_pairs(const Range& leaf, const CrossedLines& lines, std::uint32_t triangle) {
+    if (skips_.rectangles && skips_.behind && !lines.near) {
+      return;
+    }
+    for (std::uint32_t ray = 0; ray < kRays; ++ray) {
+      const std::uint32_t row = ray / kMaxColumns;
+      const std::uint32_t column = ray % kMaxColumns;
+      const auto in = [row, column](std::uint32_t rows, std::uint32_t columns) {
+        return (rows >> row & columns >> column & 1U) != 0;
+      };
+      const bool inside = in(lines.rows, lines.columns);
+      if (!in(leaf.rows, leaf.columns) || (skips_.rectangles && !inside) || !in_front(ray, lines.z)) {
+        continue;
+      }
+      ++counts_.pairs;
+      const Solution<F> s = solve(scene_.triangles[triangle], pencil_.pencil.origin, pencil_.rays[ray]);
+      if (!s.hit) {
+        continue;
+      }
+      const std::uint32_t q = depth_quotient(s.t, s.d);
+      if (!inside || !lines.near || q < lines.z || q >= pencil_.limits.far) {
+        ++counts_.strays;
+        continue;
+      }
+      if (nearer(s.t, s.d, triangle, results_[ray])) {
+        results_[ray] = {true, triangle, s.t, s.d, s.u, s.v};
+        const bool ends = pencil_.limits.any_hit && skips_.ended;
+        bounds_[ray] = ends ? 0 : bound_of(q);
+      }
+    }
+  }
+
+  [[nodiscard]] bool in_front(std::uint32_t ray, std::uint32_t z) const noexcept {
+    const std::uint32_t bound = bounds_[ray];
+    return skips_.hidden ? z < bound : bound != 0;
+  }
+
+  /// Rows with a ray for which depth z matters.
+  [[nodiscard]] std::uint32_t rows_in_front(std::uint32_t z) const noexcept {
+    std::uint32_t rows = 0;
+    for (std::uint32_t ray = 0; ray < kRays; ++ray) {
+      if ((columns_ >> (ray % kMaxColumns) & 1U) != 0 && in_front(ray, z)) {
+        rows |= 1U << (ray / kMaxColumns);
+      }
+    }
+    return rows & rows_;
+  }
+
+  const FixedSceneMemory<F>& scene_;
+  const FixedPencilMemory<F>& pencil_;
+  Skips skips_;
+  std::uint32_t rows_ = 0;     ///< of the pencil
+  std::uint32_t columns_ = 0;  ///< of the pencil
+  std::vector<Range> stack_;
+  std::array<std::uint32_t, kRays> bounds_{};
+  Results results_{};
+  FixedCounts counts_;
+};
+
+}  // namespace raplas

@@ -1,0 +1,232 @@
+// The whole accelerator of profile raplas, clock by clock: entity raplas_unit.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "raplas/clocked.hpp"
+#include "raplas/fixed_trace.hpp"
+#include "raplas/nearest_loop.hpp"
+#include "raplas/pair_selection.hpp"
+#include "raplas/pencil_control.hpp"
+#include "raplas/tree_walk.hpp"
+
+namespace raplas {
+
+/// Counters since reset, in the order of raplas::Counter; they wrap at 2^kCounterBits.
+using UnitCounters = std::array<std::uint32_t, kNumCounters>;
+
+/// What the units say to each other in one clock: the last port group of entity raplas_unit.
+template <typename F>
+struct RaplasEdges {
+  WalkRequest request;
+  int stack_level = 0;
+  bool push = false;
+  CrossingTriangle found;
+  bool issue = false;
+  std::uint32_t ray = 0;
+  std::uint32_t triangle = 0;
+  bool stall = false;
+  bool hit = false;
+  NearestHit<F> stored;
+};
+
+/// Entity raplas_unit. The scene must stay alive and unchanged while a pencil runs, and a bank while it is
+/// busy.
+template <typename F>
+class RaplasUnit {
+ public:
+  void load(const FixedSceneMemory<F>* scene) noexcept { scene_ = scene; }
+  [[nodiscard]] FixedPencilMemory<F>& pencil(std::size_t bank) noexcept { return pencils_[bank]; }
+  [[nodiscard]] const typename FixedTrace<F>::Results& results(std::size_t bank) const noexcept {
+    return results_[bank];
+  }
+  /// A bit for each bank that was started and isn't done.
+  [[nodiscard]] std::uint32_t busy() const noexcept { return control_.busy(); }
+  [[nodiscard]] const UnitCounters& counters() const noexcept { return counters_; }
+  /// Whose objects are tested, and whose pairs.
+  [[nodiscard]] std::size_t walk_bank() const noexcept { return control_.bank(); }
+  [[nodiscard]] std::size_t pair_bank() const noexcept { return columns_.row().bank; }
+
+  /// What crosses the edges between the units in the clock that comes next.
+  [[nodiscard]] RaplasEdges<F> edges() const {
+    RaplasEdges<F> e;
+    e.request = walk_.request(static_cast<int>(triangles_.count()) + kReserve);
+    e.stack_level = walk_.level();
+    e.push = decision(testers_.out()).push;
+    e.found = lines_.out();
+    e.stall = hits_.stall();
+    e.issue = columns_.issue(e.stall);
+    e.ray = columns_.ray();
+    e.triangle = columns_.row().triangle;
+    e.hit = solver_.out().hit;
+    e.stored = hits_.out();
+    return e;
+  }
+
+  /// One clock; `start` begins the pencil of `bank` unless that bank is busy.
+  void clock(bool start, std::size_t bank) {
+    const RaplasEdges<F> e = edges();
+    const std::size_t turn = control_.bank();
+    const FixedPencilMemory<F>& pencil = pencils_[turn];
+    const bool clearing = clear_hits_ != 0 || bounds_.clearing();
+    const PencilControl::Out control = control_.out(clearing);
+    count(e, control.walk);
+
+    // results
+    const ResultWord<F> best = bests_.out();
+    bests_.clock(results_[hits_.asks().bank][hits_.asks().ray]);
+    clear_hits_of(control.clear, turn, e.stored.write);
+    if (e.stored.write) {
+      results_[e.stored.bank][e.stored.ray] = e.stored.result;
+    }
+    const Solved solved = solver_.out();
+    hits_.clock(solved.hit || solved.word.token, solved.word, best);
+
+    // pairs
+    solver_.clock(e.issue || columns_.last(e.stall) ? solve_pair(e.issue) : Solved{});
+    const bool row_taken = columns_.ready(e.stall);
+    columns_.clock(rows_.valid(), rows_.front(), e.stall);
+    const std::size_t row_count = rows_.count();
+    const RayBounds::Read read = selector_.read(row_count);
+    const bool word_taken = selector_.ready(row_count);
+    rows_.clock(selector_.row_valid(), selector_.row(), row_taken);
+    const QueuedTriangle front = triangles_.front();
+    selector_.clock(triangles_.valid(), front, bounds_.row_bounds(front.bank), bounds_.bounds(), row_count);
+    const bool token_ready = triangles_.ready();
+    triangles_.clock(e.found.valid || control.token,
+                     {control.token, static_cast<std::uint32_t>(turn), e.found.triangle, 1, e.found.z,
+                      e.found.rows, e.found.columns},
+                     word_taken);
+
+    // spheres
+    const Tested tested = testers_.out();
+    const bool walk_idle = walk_.idle();
+    lines_.clock(tested.request.valid && tested.request.vertex, tested.vertex.slot, tested.vertex.emit,
+                 tested.test, tested.request.rows, tested.request.columns, tested.vertex.triangle);
+    const auto low_bits = [](std::uint32_t lines) { return (std::uint32_t{1} << lines) - 1; };
+    const SceneWord& root = scene_->scene;
+    walk_.clock(
+        control.walk && root.count != 0,
+        {false, root.count, root.first, low_bits(pencil.pencil.rows), low_bits(pencil.pencil.columns), 0},
+        e.request, bounds_.row_bounds(turn), decision(tested));
+    testers_.clock(e.request.valid ? test(e.request, pencil) : Tested{});
+    bounds_.clock({control.clear, turn, pencil.pencil.rows, pencil.pencil.columns, pencil.limits.far},
+                  {e.stored.write, e.stored.bank, e.stored.ray, e.stored.bound}, read);
+
+    control_.clock(start, bank, pencil.pencil.rows, pencil.pencil.columns, clearing, walk_idle, token_ready,
+                   e.stored.done, e.stored.bank);
+  }
+
+ private:
+  /// Triangles between the walk's count of objects under test and the queue's of triangles.
+  static constexpr int kReserve = 2;
+  static constexpr std::size_t kTestStages = kMemoryStages + kPlaneTestStages + kDepthCodeStages;
+  static constexpr std::size_t kPairStages = kMemoryStages + kRayTriangleStages - kMulStages;
+
+  struct Tested {
+    WalkRequest request;
+    FixedTest test;
+    NodeWord node;
+    VertexWord vertex;
+  };
+  struct Solved {
+    bool hit = false;
+    ValidHit<F> word;  ///< of a hit or a token
+  };
+
+  [[nodiscard]] Tested test(const WalkRequest& request, const FixedPencilMemory<F>& pencil) const {
+    Tested tested{request, {}, {}, {}};
+    const std::uint32_t slack = pencil.limits.slack;
+    if (request.vertex) {
+      tested.vertex = scene_->vertices[request.address];
+      tested.test = test_object(pencil.planes, tested.vertex.point, 0, slack);
+    } else {
+      tested.node = scene_->nodes[request.address];
+      tested.test = test_object(pencil.planes, tested.node.centre, tested.node.radius, slack);
+    }
+    return tested;
+  }
+
+  [[nodiscard]] static WalkDecision decision(const Tested& tested) noexcept {
+    const WalkRequest& request = tested.request;
+    WalkDecision d{request.valid, request.last, false, {}};
+    if (request.valid && !request.vertex) {
+      const NodeWord& node = tested.node;
+      d.range = {node.leaf,
+                 node.count,
+                 node.first,
+                 request.rows & tested.test.rows_meet,
+                 request.columns & tested.test.columns_meet,
+                 tested.test.z};
+      d.push = tested.test.near && d.range.rows != 0 && d.range.columns != 0;
+    }
+    return d;
+  }
+
+  /// The pair, or the token, that goes in this clock.
+  [[nodiscard]] Solved solve_pair(bool issue) const {
+    const QueuedRow& row = columns_.row();
+    if (!issue) {
+      return {false, {true, row.bank, 0, {}, 0}};
+    }
+    const FixedPencilMemory<F>& pencil = pencils_[row.bank];
+    const std::uint32_t ray = columns_.ray();
+    const auto s = solve(scene_->triangles[row.triangle], pencil.pencil.origin, pencil.rays[ray]);
+    const std::uint32_t q = depth_quotient(s.t, s.d);
+    const bool hit = s.hit && row.z <= q && q < pencil.limits.far;
+    const std::uint32_t bound = pencil.limits.any_hit ? 0 : bound_of(q);
+    return {hit, {false, row.bank, ray, {true, row.triangle, s.t, s.d, s.u, s.v}, bound}};
+  }
+
+  /// A row of hit bits a clock, unless a result is written.
+  void clear_hits_of(bool clear, std::size_t bank, bool write) noexcept {
+    if (clear_hits_ != 0 && !write) {
+      const auto row = static_cast<std::size_t>(kMaxRows - clear_hits_) * kMaxColumns;
+      std::fill_n(results_[clear_bank_].begin() + static_cast<std::ptrdiff_t>(row), kMaxColumns,
+                  ResultWord<F>{});
+      --clear_hits_;
+    }
+    if (clear) {
+      clear_hits_ = kMaxRows;
+      clear_bank_ = bank;
+    }
+  }
+
+  void count(const RaplasEdges<F>& e, bool walk) noexcept {
+    const auto add = [this](Counter c, std::uint32_t n) { counters_[static_cast<std::size_t>(c)] += n; };
+    add(Counter::spheres_skipped, walk ? scene_->scene.spheres : 0);
+    add(Counter::cycles, busy() != 0 ? 1 : 0);
+    if (e.request.valid) {
+      const PencilWord<F>& size = pencils_[control_.bank()].pencil;
+      add(Counter::plane_tests, size.rows + size.columns);
+      add(e.request.vertex ? Counter::vertices_tested : Counter::spheres_tested, 1);
+      add(Counter::spheres_skipped, e.request.vertex ? 0 : ~std::uint32_t{0});
+    }
+    add(Counter::pairs_tested, e.issue ? 1 : 0);
+    add(Counter::hits, e.stored.first ? 1 : 0);
+    add(Counter::stall_cycles, e.stall ? 1 : 0);
+  }
+
+  const FixedSceneMemory<F>* scene_ = nullptr;
+  std::array<FixedPencilMemory<F>, kPencilBanks> pencils_{};
+  std::array<typename FixedTrace<F>::Results, kPencilBanks> results_{};
+  UnitCounters counters_{};
+  PencilControl control_;
+  TreeWalk walk_;
+  Delay<Tested, kTestStages> testers_;
+  TriangleLines<FixedTest> lines_;
+  Fifo<QueuedTriangle, std::size_t{1} << kTriangleFifoDepthLog2> triangles_;
+  RowSelector selector_;
+  Fifo<QueuedRow, std::size_t{1} << kRowFifoDepthLog2> rows_;
+  ColumnSelector columns_;
+  RayBounds bounds_;
+  Delay<Solved, kPairStages> solver_;
+  HitQueue<F> hits_;
+  Delay<ResultWord<F>, kMemoryStages> bests_;
+  int clear_hits_ = 0;  ///< rows of hit bits that are not clear yet
+  std::size_t clear_bank_ = 0;
+};
+
+}  // namespace raplas

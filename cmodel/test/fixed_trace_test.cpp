@@ -1,0 +1,82 @@
+// Nothing that is skipped changes a hit.
+#include "raplas/fixed_trace.hpp"
+
+#include <gtest/gtest.h>
+
+#include "random_fixed_scenes.hpp"
+
+namespace raplas {
+namespace {
+
+using F = Fp24;
+
+/// The hit definition, ray by ray and triangle by triangle.
+FixedTrace<F>::Results brute_force(const FixedSceneMemory<F>& scene, const FixedPencilMemory<F>& pencil) {
+  FixedTrace<F>::Results results{};
+  std::array<FixedTest, 3> slots;
+  for (const VertexWord& vertex : scene.vertices) {
+    slots[vertex.slot] = test_object(pencil.planes, vertex.point, 0, pencil.limits.slack);
+    if (!vertex.emit) {
+      continue;
+    }
+    const CrossedLines lines = crossed_lines(slots);
+    for (std::uint32_t row = 0; row < pencil.pencil.rows; ++row) {
+      for (std::uint32_t column = 0; column < pencil.pencil.columns; ++column) {
+        const std::uint32_t ray = row * kMaxColumns + column;
+        const auto s = solve(scene.triangles[vertex.triangle], pencil.pencil.origin, pencil.rays[ray]);
+        const bool crossed = (lines.rows >> row & lines.columns >> column & 1U) != 0;
+        if (!s.hit || !crossed || !lines.near) {
+          continue;
+        }
+        const std::uint32_t q = depth_quotient(s.t, s.d);
+        if (q >= lines.z && q < pencil.limits.far && nearer(s.t, s.d, vertex.triangle, results[ray])) {
+          results[ray] = {true, vertex.triangle, s.t, s.d, s.u, s.v};
+        }
+      }
+    }
+  }
+  return results;
+}
+
+void expect_same_hits(const FixedTrace<F>::Results& expected, const FixedTrace<F>::Results& seen,
+                      bool any_hit) {
+  for (std::size_t ray = 0; ray < expected.size(); ++ray) {
+    ASSERT_EQ(seen[ray].hit, expected[ray].hit) << "ray " << ray;
+    if (!any_hit) {
+      ASSERT_EQ(seen[ray], expected[ray]) << "ray " << ray;
+    }
+  }
+}
+
+TEST(FixedTrace, SkippingChangesNoHit) {
+  FixedScenes<F> scenes(31);
+  std::uint64_t hits = 0;
+  FixedCounts all;
+  FixedCounts none;
+  for (int k = 0; k < 400; ++k) {
+    const FixedSceneMemory<F> scene = scenes.scene(1 + scenes.below(120), 2 + scenes.below(5));
+    const FixedPencilMemory<F> pencil = scenes.pencil(1 + scenes.below(16), 1 + scenes.below(16));
+    const auto expected = brute_force(scene, pencil);
+    for (int off = -1; off < 9; ++off) {  // everything skipped, each skip off, a random half off, all off
+      SCOPED_TRACE(testing::Message() << "scene " << k << ", off " << off);
+      const std::uint32_t random = off == 7 ? scenes.below(128) : off == 8 ? 127 : off < 0 ? 0 : 1U << off;
+      const auto on = [random](int skip) { return (random >> skip & 1U) == 0; };
+      const Skips skips{on(0), on(1), on(2), on(3), on(4), on(5), on(6)};
+      const FixedTrace<F> trace(scene, pencil, skips);
+      ASSERT_NO_FATAL_FAILURE(expect_same_hits(expected, trace.results(), pencil.limits.any_hit));
+      FixedCounts& sum = off < 0 ? all : none;
+      if (off < 0 || off == 8) {
+        sum.pairs += trace.counts().pairs;
+        sum.spheres += trace.counts().spheres;
+        sum.strays += trace.counts().strays;
+        hits += trace.counts().hits;
+      }
+    }
+  }
+  EXPECT_GT(hits, 10'000U);
+  EXPECT_LT(all.pairs * 4, none.pairs) << "nothing is skipped";
+  EXPECT_GT(none.strays, 0U) << "no case in which only the lines and depths of the triangle reject a hit";
+}
+
+}  // namespace
+}  // namespace raplas

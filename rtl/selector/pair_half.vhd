@@ -1,0 +1,386 @@
+-- ============================================================================
+-- pair_half - from triangles and their rectangles to the hits of the rays
+-- ----------------------------------------------------------------------------
+--   triangle queue -> row_selector -> row queue -> column_selector
+--   @0   pair: addresses of its ray and triangle
+--   @2   their words                             Ray, Triangle memory
+--   @28  hit? t', d, u', v'                      ray_solver; depth_quotient
+--        -> hit_queue -> Result memory, ray_bounds
+-- A pair counts as a hit if Moeller's test says so and its depth code is neither
+-- less than that of the triangle's nearest point nor too far for the pencil.
+-- model: cmodel/include/raplas/raplas_unit.hpp     tests: tb/integration/raplas_unit
+-- ============================================================================
+library ieee;
+use ieee.std_logic_1164.all;
+use ieee.numeric_std.all;
+library raplas;
+use raplas.raplas_constants.all;
+
+entity pair_half is
+  generic (
+    GUARD_BITS            : natural range 0 to 2 := 2;
+    TRIANGLE_ADDRESS_BITS : positive range 1 to ID_BITS := 12
+  );
+  port (
+    clk_i            : in  std_ulogic;
+    rst_i            : in  std_ulogic;
+    -- host: memories
+    write_ray_i      : in  std_ulogic;
+    write_triangle_i : in  std_ulogic;
+    address_i        : in  std_ulogic_vector(ID_BITS - 1 downto 0);
+    data_i           : in  std_ulogic_vector(TRIANGLE_BITS - 1 downto 0);
+    result_ray_i     : in  std_ulogic_vector(BANK_BITS + 2 * LINE_BITS - 1 downto 0);
+    result_o         : out result_word_t;                           -- MEMORY_STAGES later
+    -- registers of all banks, bank k in the k-th place from the low end
+    origins_i        : in  std_ulogic_vector(PENCIL_BANKS * 3 * FP_BITS - 1 downto 0);
+    limits_i         : in  std_ulogic_vector(PENCIL_BANKS * LIMITS_BITS - 1 downto 0);
+    -- the pencil whose turn it is to be walked
+    walk_bank_i      : in  std_ulogic_vector(BANK_BITS - 1 downto 0);
+    rows_i           : in  std_ulogic_vector(LINE_BITS downto 0);
+    columns_i        : in  std_ulogic_vector(LINE_BITS downto 0);
+    far_i            : in  std_ulogic_vector(DEPTH_BITS - 1 downto 0);
+    clear_i          : in  std_ulogic;                              -- its bounds and hit bits
+    clearing_o       : out std_ulogic;
+    row_bounds_o     : out std_ulogic_vector(MAX_ROWS * DEPTH_BITS - 1 downto 0);   -- of its rays
+    -- triangles of that pencil, and its end
+    valid_i          : in  std_ulogic;
+    triangle_i       : in  std_ulogic_vector(ID_BITS - 1 downto 0);
+    triangle_rows_i    : in std_ulogic_vector(MAX_ROWS - 1 downto 0);
+    triangle_columns_i : in std_ulogic_vector(MAX_COLUMNS - 1 downto 0);
+    z_i              : in  std_ulogic_vector(DEPTH_BITS - 1 downto 0);
+    token_i          : in  std_ulogic;                              -- not together with valid_i
+    token_ready_o    : out std_ulogic;
+    triangles_o      : out std_ulogic_vector(TRIANGLE_FIFO_DEPTH_LOG2 downto 0);    -- in the queue
+    -- the end of a pencil: all its results are in place
+    done_o           : out std_ulogic;
+    done_bank_o      : out std_ulogic_vector(BANK_BITS - 1 downto 0);
+    -- for counters and traces
+    issue_o          : out std_ulogic;                              -- a pair goes
+    ray_o            : out std_ulogic_vector(2 * LINE_BITS - 1 downto 0);
+    pair_triangle_o  : out std_ulogic_vector(ID_BITS - 1 downto 0);
+    stall_o          : out std_ulogic;                              -- none may go
+    hit_o            : out std_ulogic;                              -- @28
+    first_hit_o      : out std_ulogic;                              -- a ray has its first hit
+    stored_o         : out std_ulogic;
+    stored_ray_o     : out std_ulogic_vector(2 * LINE_BITS - 1 downto 0);
+    stored_result_o  : out result_word_t
+  );
+end entity pair_half;
+
+architecture rtl of pair_half is
+
+  constant SOLVER_STAGES : positive := 2 * MUL_STAGES + 5 * ADD_STAGES;   -- 26
+  constant WORD_BITS : positive := 1 + BANK_BITS + ID_BITS + COUNT_BITS + DEPTH_BITS
+                                   + MAX_ROWS + MAX_COLUMNS;
+  constant ROW_BITS  : positive := 1 + BANK_BITS + ID_BITS + DEPTH_BITS + LINE_BITS + MAX_COLUMNS;
+  constant PAIR_BITS : positive := BANK_BITS + ID_BITS + DEPTH_BITS + 2 * LINE_BITS;
+  constant VECTOR_BITS : positive := 3 * FP_BITS;
+  constant NO_BOUND  : positive := 2 ** DEPTH_BITS - 1;
+
+  subtype bank_t is std_ulogic_vector(BANK_BITS - 1 downto 0);
+  subtype ray_id_t is std_ulogic_vector(2 * LINE_BITS - 1 downto 0);
+  subtype depth_t is std_ulogic_vector(DEPTH_BITS - 1 downto 0);
+  subtype id_t is std_ulogic_vector(ID_BITS - 1 downto 0);
+
+  -- triangle queue to column_selector
+  signal write_word, queue_ready, word_valid, word_ready : std_ulogic;
+  signal word_in, word_out     : std_ulogic_vector(WORD_BITS - 1 downto 0);
+  signal front_bank            : bank_t;
+  signal front_bounds, bounds  : std_ulogic_vector(MAX_ROWS * DEPTH_BITS - 1 downto 0);
+  signal read                  : std_ulogic;
+  signal read_bank             : bank_t;
+  signal read_row              : std_ulogic_vector(LINE_BITS - 1 downto 0);
+  signal row_write, row_valid, row_ready : std_ulogic;
+  signal row_in, row_out       : std_ulogic_vector(ROW_BITS - 1 downto 0);
+  signal row_count             : std_ulogic_vector(ROW_FIFO_DEPTH_LOG2 downto 0);
+  -- pairs
+  signal issue, last, stall    : std_ulogic;
+  signal ray                   : ray_id_t;
+  signal triangle              : id_t;
+  signal z                     : depth_t;
+  signal bank                  : bank_t;
+  signal event_s0, event_s2, event_s28 : std_ulogic_vector(1 downto 0);   -- issue last
+  signal pair_s0, pair_s2, pair_s28    : std_ulogic_vector(PAIR_BITS - 1 downto 0);
+  signal ray_address           : std_ulogic_vector(BANK_BITS + 2 * LINE_BITS - 1 downto 0);
+  signal ray_word              : ray_word_t;
+  signal triangle_word         : triangle_word_t;
+  signal bank_s2, bank_s28     : bank_t;
+  signal origin                : std_ulogic_vector(VECTOR_BITS - 1 downto 0);
+  signal limits                : limits_t;
+  -- @28
+  signal solver_valid, solver_hit, hit : std_ulogic;
+  signal t, d, u, v            : fp24_t;
+  signal t_early, d_early      : fp24_t;     -- @24
+  signal quotient              : depth_t;
+  signal bound                 : depth_t;
+  -- results
+  signal best_bank, stored_bank : bank_t;
+  signal best_ray, stored_ray  : ray_id_t;
+  signal best, stored_result   : result_word_t;
+  signal stored, first_hit     : std_ulogic;
+  signal stored_bound          : depth_t;
+  signal clearing_hits, clearing_bounds : std_ulogic;
+
+begin
+
+  -- --------------------------------------------------------------------------
+  -- from triangles to pairs
+  -- --------------------------------------------------------------------------
+  word_p : process (token_i, walk_bank_i, triangle_i, z_i, triangle_rows_i, triangle_columns_i)
+    variable count_v : unsigned(COUNT_BITS - 1 downto 0);
+  begin
+    count_v := to_unsigned(1, COUNT_BITS);
+    word_in <= token_i & walk_bank_i & triangle_i & std_ulogic_vector(count_v) & z_i
+      & triangle_rows_i & triangle_columns_i;
+  end process word_p;
+
+  write_word    <= valid_i or token_i;
+  token_ready_o <= queue_ready;
+
+  triangle_fifo_i : entity raplas.fifo
+    generic map (WIDTH => WORD_BITS, DEPTH_LOG2 => TRIANGLE_FIFO_DEPTH_LOG2)
+    port map (
+      clk_i   => clk_i,
+      rst_i   => rst_i,
+      write_i => write_word,
+      data_i  => word_in,
+      read_i  => word_ready,
+      data_o  => word_out,
+      valid_o => word_valid,
+      ready_o => queue_ready,
+      count_o => triangles_o
+    );
+
+  rows_e : entity raplas.row_selector
+    port map (
+      clk_i        => clk_i,
+      rst_i        => rst_i,
+      valid_i      => word_valid,
+      word_i       => word_out,
+      ready_o      => word_ready,
+      pair_bank_o  => front_bank,
+      row_bounds_i => front_bounds,
+      read_o       => read,
+      bank_o       => read_bank,
+      row_o        => read_row,
+      bounds_i     => bounds,
+      row_valid_o  => row_write,
+      row_word_o   => row_in,
+      row_count_i  => row_count
+    );
+
+  row_fifo_i : entity raplas.fifo
+    generic map (WIDTH => ROW_BITS, DEPTH_LOG2 => ROW_FIFO_DEPTH_LOG2)
+    port map (
+      clk_i   => clk_i,
+      rst_i   => rst_i,
+      write_i => row_write,
+      data_i  => row_in,
+      read_i  => row_ready,
+      data_o  => row_out,
+      valid_o => row_valid,
+      ready_o => open,
+      count_o => row_count
+    );
+
+  columns_e : entity raplas.column_selector
+    port map (
+      clk_i      => clk_i,
+      rst_i      => rst_i,
+      valid_i    => row_valid,
+      row_word_i => row_out,
+      ready_o    => row_ready,
+      stall_i    => stall,
+      issue_o    => issue,
+      ray_o      => ray,
+      triangle_o => triangle,
+      z_o        => z,
+      bank_o     => bank,
+      last_o     => last
+    );
+
+  bounds_e : entity raplas.ray_bounds
+    port map (
+      clk_i             => clk_i,
+      rst_i             => rst_i,
+      clear_i           => clear_i,
+      clear_bank_i      => walk_bank_i,
+      clear_rows_i      => rows_i,
+      clear_columns_i   => columns_i,
+      clear_far_i       => far_i,
+      clearing_o        => clearing_bounds,
+      update_i          => stored,
+      update_bank_i     => stored_bank,
+      update_ray_i      => stored_ray,
+      update_bound_i    => stored_bound,
+      read_i            => read,
+      read_bank_i       => read_bank,
+      read_row_i        => read_row,
+      bounds_o          => bounds,
+      walk_bank_i       => walk_bank_i,
+      row_bounds_o      => row_bounds_o,
+      pair_bank_i       => front_bank,
+      pair_row_bounds_o => front_bounds
+    );
+
+  -- --------------------------------------------------------------------------
+  -- from pairs to hits
+  -- --------------------------------------------------------------------------
+  event_s0    <= issue & last;
+  pair_s0     <= bank & triangle & z & ray;
+  ray_address <= bank & ray;
+
+  event_delay_2 : entity raplas.delay
+    generic map (WIDTH => 2, STAGES => MEMORY_STAGES)
+    port map (clk_i => clk_i, rst_i => rst_i, data_i => event_s0, data_o => event_s2);
+
+  pair_delay_2 : entity raplas.delay
+    generic map (WIDTH => PAIR_BITS, STAGES => MEMORY_STAGES)
+    port map (clk_i => clk_i, rst_i => '0', data_i => pair_s0, data_o => pair_s2);
+
+  event_delay_28 : entity raplas.delay
+    generic map (WIDTH => 2, STAGES => SOLVER_STAGES)
+    port map (clk_i => clk_i, rst_i => rst_i, data_i => event_s2, data_o => event_s28);
+
+  pair_delay_28 : entity raplas.delay
+    generic map (WIDTH => PAIR_BITS, STAGES => SOLVER_STAGES)
+    port map (clk_i => clk_i, rst_i => '0', data_i => pair_s2, data_o => pair_s28);
+
+  ray_memory_i : entity raplas.ram
+    generic map (WIDTH => RAY_BITS, ADDRESS_BITS => BANK_BITS + 2 * LINE_BITS)
+    port map (
+      clk_i           => clk_i,
+      write_i         => write_ray_i,
+      write_address_i => address_i(BANK_BITS + 2 * LINE_BITS - 1 downto 0),
+      write_data_i    => data_i(RAY_BITS - 1 downto 0),
+      read_address_i  => ray_address,
+      read_data_o     => ray_word
+    );
+
+  triangle_memory_i : entity raplas.ram
+    generic map (WIDTH => TRIANGLE_BITS, ADDRESS_BITS => TRIANGLE_ADDRESS_BITS)
+    port map (
+      clk_i           => clk_i,
+      write_i         => write_triangle_i,
+      write_address_i => address_i(TRIANGLE_ADDRESS_BITS - 1 downto 0),
+      write_data_i    => data_i,
+      read_address_i  => triangle(TRIANGLE_ADDRESS_BITS - 1 downto 0),
+      read_data_o     => triangle_word
+    );
+
+  bank_s2  <= pair_s2(PAIR_BITS - 1 downto PAIR_BITS - BANK_BITS);
+  bank_s28 <= pair_s28(PAIR_BITS - 1 downto PAIR_BITS - BANK_BITS);
+
+  registers_p : process (origins_i, limits_i, bank_s2, bank_s28)
+  begin
+    origin <= origins_i(VECTOR_BITS - 1 downto 0);
+    limits <= unpack_limits(limits_i(LIMITS_BITS - 1 downto 0));
+    for k in 1 to PENCIL_BANKS - 1 loop
+      if unsigned(bank_s2) = k then
+        origin <= origins_i((k + 1) * VECTOR_BITS - 1 downto k * VECTOR_BITS);
+      end if;
+      if unsigned(bank_s28) = k then
+        limits <= unpack_limits(limits_i((k + 1) * LIMITS_BITS - 1 downto k * LIMITS_BITS));
+      end if;
+    end loop;
+  end process registers_p;
+
+  solver_i : entity raplas.ray_solver
+    generic map (GUARD_BITS => GUARD_BITS, EXPONENT_DSP => false)
+    port map (
+      clk_i       => clk_i,
+      rst_i       => rst_i,
+      valid_i     => event_s2(1),
+      triangle_i  => triangle_word,
+      direction_i => ray_word,
+      origin_i    => origin,
+      valid_o     => solver_valid,
+      hit_o       => solver_hit,
+      t_o         => t,
+      d_o         => d,
+      u_o         => u,
+      v_o         => v,
+      t_s22_o     => t_early,
+      d_s22_o     => d_early
+    );
+
+  quotient_i : entity raplas.depth_quotient
+    port map (clk_i => clk_i, t_i => t_early, d_i => d_early, q_o => quotient);
+
+  valid_hit_p : process (solver_hit, quotient, limits, pair_s28)
+    variable z_v : depth_t;
+  begin
+    z_v := pair_s28(2 * LINE_BITS + DEPTH_BITS - 1 downto 2 * LINE_BITS);
+    hit <= '0';
+    if unsigned(z_v) <= unsigned(quotient) and unsigned(quotient) < unsigned(limits.far) then
+      hit <= solver_hit;
+    end if;
+    if limits.any_hit = '1' then
+      bound <= (others => '0');
+    elsif unsigned(quotient) > NO_BOUND - QUOTIENT_ERROR then
+      bound <= std_ulogic_vector(to_unsigned(NO_BOUND, DEPTH_BITS));
+    else
+      bound <= std_ulogic_vector(unsigned(quotient) + QUOTIENT_ERROR);
+    end if;
+  end process valid_hit_p;
+
+  hits_e : entity raplas.hit_queue
+    generic map (EXPONENT_DSP => false)
+    port map (
+      clk_i        => clk_i,
+      rst_i        => rst_i,
+      valid_i      => hit,
+      last_i       => event_s28(0),
+      bank_i       => bank_s28,
+      ray_i        => pair_s28(2 * LINE_BITS - 1 downto 0),
+      triangle_i   => pair_s28(2 * LINE_BITS + DEPTH_BITS + ID_BITS - 1
+                               downto 2 * LINE_BITS + DEPTH_BITS),
+      t_i          => t,
+      d_i          => d,
+      u_i          => u,
+      v_i          => v,
+      bound_i      => bound,
+      stall_o      => stall,
+      best_bank_o  => best_bank,
+      best_ray_o   => best_ray,
+      best_i       => best,
+      write_o      => stored,
+      write_bank_o => stored_bank,
+      ray_o        => stored_ray,
+      result_o     => stored_result,
+      first_o      => first_hit,
+      bound_o      => stored_bound,
+      done_o       => done_o,
+      done_bank_o  => done_bank_o
+    );
+
+  result_memory_i : entity raplas.result_memory
+    port map (
+      clk_i        => clk_i,
+      rst_i        => rst_i,
+      clear_i      => clear_i,
+      clear_bank_i => walk_bank_i,
+      clearing_o   => clearing_hits,
+      write_i      => stored,
+      write_bank_i => stored_bank,
+      write_ray_i  => stored_ray,
+      write_data_i => stored_result,
+      best_bank_i  => best_bank,
+      best_ray_i   => best_ray,
+      best_o       => best,
+      host_ray_i   => result_ray_i,
+      host_data_o  => result_o
+    );
+
+  clearing_o      <= clearing_hits or clearing_bounds;
+  issue_o         <= issue;
+  ray_o           <= ray;
+  pair_triangle_o <= triangle;
+  stall_o         <= stall;
+  hit_o           <= hit;
+  first_hit_o     <= first_hit;
+  stored_o        <= stored;
+  stored_ray_o    <= stored_ray;
+  stored_result_o <= stored_result;
+
+end architecture rtl;

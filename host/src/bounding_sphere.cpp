@@ -1,19 +1,16 @@
-// Small balls around points.
+// The smallest ball around points.
 #include "raplas/bounding_sphere.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
-#include <vector>
 
 namespace raplas {
 namespace {
 
-constexpr std::size_t kExactLimit = 16;  ///< more points than these are approximated
-constexpr std::size_t kLarge = 4096;     ///< more points than these get fewer steps
-constexpr int kSteps = 24;
-constexpr int kStepsLarge = 6;
+constexpr int kMostSteps = 1000;  ///< a dozen are usual
 
 double square(double x) { return x * x; }
 
@@ -21,6 +18,15 @@ double distance2(const glm::dvec3& a, const glm::dvec3& b) {
   const glm::dvec3 d = a - b;
   return glm::dot(d, d);
 }
+
+/// Up to 5 points.
+struct Support {
+  std::array<glm::dvec3, 5> points{};
+  std::size_t count = 0;
+
+  void add(const glm::dvec3& p) { points[count++] = p; }
+  [[nodiscard]] std::span<const glm::dvec3> span() const { return {points.data(), count}; }
+};
 
 /// The smallest ball with all `support` points (1 .. 4) on its surface; a negative radius if they are
 /// dependent.
@@ -53,68 +59,50 @@ Ball circumscribed(std::span<const glm::dvec3> support) {
   return {o + offset, glm::length(offset)};
 }
 
-bool outside(const Ball& ball, const glm::dvec3& p) {
-  return ball.radius < 0 || distance2(ball.centre, p) > square(ball.radius) * (1 + 1e-12) + 1e-300;
-}
+struct Farthest {
+  std::size_t index;
+  double distance2;
+};
 
-/// Welzl's recursion over the first `count` points, with `support` on the surface. Points that enlarged the
-/// ball move to the front.
-Ball welzl(std::vector<glm::dvec3>& points, std::size_t count, std::vector<glm::dvec3>& support) {
-  Ball ball = support.empty() ? Ball{} : circumscribed(support);
-  if (support.size() == 4) {
-    return ball;
-  }
-  for (std::size_t k = 0; k < count; ++k) {
-    if (!outside(ball, points[k])) {
-      continue;
-    }
-    support.push_back(points[k]);
-    const Ball larger = welzl(points, k, support);
-    support.pop_back();
-    if (larger.radius >= 0) {
-      ball = larger;
-      const auto here = points.begin() + static_cast<std::ptrdiff_t>(k);
-      std::rotate(points.begin(), here, here + 1);
-    }
-  }
-  return ball;
-}
-
-Ball measured(std::span<const glm::dvec3> points, const glm::dvec3& centre) {
-  double radius2 = 0;
-  for (const glm::dvec3& p : points) {
-    radius2 = std::max(radius2, distance2(centre, p));
-  }
-  return {centre, std::sqrt(radius2)};
-}
-
-const glm::dvec3& farthest(std::span<const glm::dvec3> points, const glm::dvec3& from) {
-  std::size_t best = 0;
-  double best2 = -1;
+Farthest farthest(std::span<const glm::dvec3> points, const glm::dvec3& from) {
+  Farthest best{0, -1};
   for (std::size_t k = 0; k < points.size(); ++k) {
     const double d2 = distance2(from, points[k]);
-    if (d2 > best2) {
-      best = k;
-      best2 = d2;
+    if (d2 > best.distance2) {
+      best = {k, d2};
     }
   }
-  return points[best];
+  return best;
 }
 
-/// Ritter's start, then steps towards the farthest point that get smaller.
-Ball approximate(std::span<const glm::dvec3> points) {
-  const glm::dvec3& a = farthest(points, points[0]);
-  const glm::dvec3& b = farthest(points, a);
-  Ball best = measured(points, (a + b) * 0.5);
-  glm::dvec3 centre = best.centre;
-  const int steps = points.size() > kLarge ? kStepsLarge : kSteps;
-  for (int step = 0; step < steps; ++step) {
-    const glm::dvec3& p = farthest(points, centre);
-    const double radius = glm::distance(p, centre);
-    if (radius < best.radius) {
-      best = {centre, radius};
+struct Supported {
+  Ball ball;
+  Support support;
+};
+
+/// The smallest ball around `old` (1 .. 4 points) and a point outside their ball, which is hence on its
+/// surface. Of the balls through it and a subset of the others, it is the one whose centre is nearest to the
+/// farthest of all points.
+Supported enlarged(const Support& old, const glm::dvec3& point) {
+  Support all = old;
+  all.add(point);
+  Supported best;
+  for (unsigned subset = 1; subset < (1U << old.count) && subset != 15; ++subset) {
+    Support chosen;
+    chosen.add(point);
+    for (std::size_t k = 0; k < old.count; ++k) {
+      if ((subset >> k & 1U) != 0) {
+        chosen.add(old.points[k]);
+      }
     }
-    centre += (p - centre) * (0.25 / (1 + step));
+    const Ball ball = circumscribed(chosen.span());
+    if (ball.radius < 0) {
+      continue;
+    }
+    const double radius = std::sqrt(farthest(all.span(), ball.centre).distance2);
+    if (best.ball.radius < 0 || radius < best.ball.radius) {
+      best = {{ball.centre, radius}, chosen};
+    }
   }
   return best;
 }
@@ -125,22 +113,34 @@ Ball bounding_ball(std::span<const glm::dvec3> points) {
   if (points.empty()) {
     return {};
   }
-  const Ball fallback = approximate(points);
-  if (points.size() > kExactLimit) {
-    return fallback;
+  Supported state;
+  state.support.add(points[farthest(points, points[0]).index]);
+  state.ball = {state.support.points[0], 0};
+  Ball best;
+  for (int step = 0; step < kMostSteps; ++step) {
+    const Farthest next = farthest(points, state.ball.centre);
+    const double radius = std::sqrt(next.distance2);
+    if (best.radius < 0 || radius < best.radius) {
+      best = {state.ball.centre, radius};
+    }
+    if (radius <= state.ball.radius * (1 + 1e-13)) {
+      break;
+    }
+    const Supported larger = enlarged(state.support, points[next.index]);
+    if (!(larger.ball.radius > state.ball.radius)) {
+      break;  // only rounding is left
+    }
+    state = larger;
   }
-  std::vector<glm::dvec3> scratch(points.begin(), points.end());
-  std::vector<glm::dvec3> support;
-  const Ball smallest = welzl(scratch, scratch.size(), support);
-  if (smallest.radius < 0) {
-    return fallback;
-  }
-  const Ball exact = measured(points, smallest.centre);
-  return exact.radius < fallback.radius ? exact : fallback;
+  return best;
 }
 
 double enclosing_radius(std::span<const glm::dvec3> points, const glm::dvec3& centre) {
-  return measured(points, centre).radius * (1 + std::ldexp(1.0, -48)) + std::ldexp(1.0, -500);
+  if (points.empty()) {
+    return 0;
+  }
+  const double radius = std::sqrt(farthest(points, centre).distance2);
+  return radius * (1 + std::ldexp(1.0, -48)) + std::ldexp(1.0, -500);
 }
 
 }  // namespace raplas

@@ -56,9 +56,10 @@ class Checker {
   /// Returns the triangles below the nodes first .. first + count - 1, which must lie next to each other.
   Range check_children(std::size_t first, std::size_t count, std::size_t stacked) {
     const auto begin = scene_.nodes.begin() + static_cast<std::ptrdiff_t>(first);
-    const bool inner = std::any_of(begin, begin + static_cast<std::ptrdiff_t>(count),
-                                   [](const SphereNode& n) { return !n.leaf; });
-    if (inner) {
+    const bool flat_list = first == scene_.root_first && count == scene_.root_count &&
+                           std::all_of(begin, begin + static_cast<std::ptrdiff_t>(count),
+                                       [](const SphereNode& n) { return n.leaf; });
+    if (!flat_list) {  // whose leaves go to the selector, not to the stack
       stacked += count - 1;
     }
     Range all{0, 0};

@@ -1,219 +1,229 @@
-// Builds sphere trees by median splits.
+// Builds sphere trees: a binary tree of ranges, nodes of it grouped into wide ones, a ball around each.
 #include "raplas/sphere_tree.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <limits>
-#include <numeric>
+#include <optional>
 #include <stdexcept>
 
+#include "binary_tree.hpp"
+#include "grouping.hpp"
 #include "raplas/bounding_sphere.hpp"
 #include "triangle_points.hpp"
 
 namespace raplas {
 namespace {
 
-struct Range {
-  std::size_t begin;
-  std::size_t end;
+constexpr std::size_t kMaxIds = std::size_t{1} << kIdBits;
 
-  [[nodiscard]] std::size_t size() const { return end - begin; }
-};
+void check_ids(std::size_t count, const char* what) {
+  if (count > kMaxIds) {
+    throw std::runtime_error(fmt::format("{} {}, IDs of {} bits allow {}", count, what, kIdBits, kMaxIds));
+  }
+}
+
+void check_input(std::size_t triangles, const TreeOptions& options) {
+  constexpr int kMaxCount = (1 << kCountBits) - 1;
+  if (options.leaf_size < 1 || options.leaf_size > kMaxCount) {
+    throw std::runtime_error(fmt::format("leaf size {} is not in 1 to {}", options.leaf_size, kMaxCount));
+  }
+  if (options.width < 2 || options.width > kMaxCount) {
+    throw std::runtime_error(fmt::format("tree width {} is not in 2 to {}", options.width, kMaxCount));
+  }
+  if (triangles == 0) {
+    throw std::runtime_error("no triangles to put into spheres");
+  }
+  check_ids(triangles, "triangles");
+}
 
 class Builder {
  public:
   Builder(std::span<const Triangle> triangles, const TreeOptions& options)
-      : triangles_(triangles),
-        leaf_size_(static_cast<std::size_t>(options.leaf_size)),
-        order_(triangles.size()) {
-    constexpr int kMaxCount = (1 << kCountBits) - 1;
-    if (options.leaf_size < 1 || options.leaf_size > kMaxCount) {
-      throw std::runtime_error(fmt::format("leaf size {} is not in 1 to {}", options.leaf_size, kMaxCount));
+      : triangles_(triangles), options_(options), binary_(build_binary(triangles, options)) {
+    vertices_.reserve(3 * triangles.size());
+    stored_.reserve(3 * triangles.size());
+    for (const std::uint32_t k : binary_.order) {
+      const TrianglePoints points = points_of(triangles[k]);
+      vertices_.insert(vertices_.end(), points.vertices.begin(), points.vertices.end());
+      stored_.insert(stored_.end(), points.stored.begin(), points.stored.end());
     }
-    if (options.width < 2 || options.width > kMaxCount) {
-      throw std::runtime_error(fmt::format("tree width {} is not in 2 to {}", options.width, kMaxCount));
+    if (options.builder != TreeBuilder::median) {
+      group();
     }
-    if (triangles.empty()) {
-      throw std::runtime_error("no triangles to put into spheres");
-    }
-    check_ids(triangles.size(), "triangles");
-    std::iota(order_.begin(), order_.end(), 0U);
-    centroids_.reserve(triangles.size());
-    sizes_.reserve(triangles.size());
-    points_.reserve(triangles.size());
-    for (const Triangle& t : triangles) {
-      centroids_.push_back(t.v0 + (t.e1 + t.e2) / 3.0);
-      points_.push_back(points_of(t));
-      sizes_.push_back(std::max({glm::length(t.e1), glm::length(t.e2), glm::length(t.e2 - t.e1)}));
-    }
+    find_levels();
   }
 
-  /// Appends the leaves of a range in order.
-  void add_leaves(Range range) {
-    if (range.size() <= leaf_size_) {
-      nodes_.push_back(leaf(range));
-      return;
-    }
-    const std::size_t middle = cut(range);
-    add_leaves({range.begin, middle});
-    add_leaves({middle, range.end});
-  }
-
-  /// Appends the children of a range, then what is below them. Returns the first child and their number.
-  std::pair<std::size_t, std::size_t> add_children(Range range, std::size_t width) {
-    const std::vector<Range> parts = split(range, width);
-    const std::size_t first = nodes_.size();
-    nodes_.resize(first + parts.size());
-    for (std::size_t k = 0; k < parts.size(); ++k) {
-      if (parts[k].size() <= leaf_size_) {
-        nodes_[first + k] = leaf(parts[k]);
-      } else {
-        SphereNode node = sphere(parts[k]);
-        const auto [child, count] = add_children(parts[k], width);
-        node.first = static_cast<std::uint32_t>(child);
-        node.count = static_cast<std::uint32_t>(count);
-        nodes_[first + k] = node;
+  /// Appends the binary tree's leaves in order.
+  void add_leaves() {
+    for (const BinaryNode& range : binary_.nodes) {
+      if (!range.divided()) {
+        nodes_.push_back(leaf(range));
       }
     }
-    return {first, parts.size()};
+  }
+
+  /// Appends the children of a binary node, then what is below them. Returns their number. On the way from
+  /// here down the ranges may have sum of (count - 1) <= room.
+  std::size_t add_children(std::uint32_t node, int room) {
+    const std::vector<std::uint32_t> parts = children(node, room);
+    const std::size_t first = nodes_.size();
+    nodes_.resize(first + parts.size());
+    const int left = room - static_cast<int>(parts.size() - 1);
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      const BinaryNode& range = binary_.nodes[parts[k]];
+      if (is_leaf(parts[k], left)) {
+        nodes_[first + k] = leaf(range);
+      } else {
+        SphereNode sphere = sphere_around(range);
+        sphere.first = static_cast<std::uint32_t>(nodes_.size());
+        sphere.count = static_cast<std::uint32_t>(add_children(parts[k], left));
+        nodes_[first + k] = sphere;
+      }
+    }
+    return parts.size();
   }
 
   SphereTree finish(std::size_t root_count) {
     check_ids(nodes_.size(), "spheres");
     SphereTree tree;
-    tree.scene.triangles.reserve(order_.size());
-    for (const std::uint32_t k : order_) {
+    tree.scene.triangles.reserve(triangles_.size());
+    for (const std::uint32_t k : binary_.order) {
       tree.scene.triangles.push_back(triangles_[k]);
     }
     tree.scene.nodes = std::move(nodes_);
     tree.scene.root_first = 0;
     tree.scene.root_count = static_cast<std::uint32_t>(root_count);
-    tree.source = std::move(order_);
+    tree.source = std::move(binary_.order);
     return tree;
   }
 
-  [[nodiscard]] Range all() const { return {0, order_.size()}; }
   [[nodiscard]] std::size_t node_count() const { return nodes_.size(); }
 
  private:
-  static void check_ids(std::size_t count, const char* what) {
-    constexpr std::size_t kMaxIds = std::size_t{1} << kIdBits;
-    if (count > kMaxIds) {
-      throw std::runtime_error(fmt::format("{} {}, IDs of {} bits allow {}", count, what, kIdBits, kMaxIds));
-    }
+  [[nodiscard]] bool fits_leaf(std::uint32_t node) const {
+    return binary_.nodes[node].size() <= static_cast<std::uint32_t>(options_.leaf_size);
   }
 
-  /// Reorders a range of more than a leaf into two parts and returns where the second begins. The whole list
-  /// is first cut into small and large triangles (walls, floors), which would blow up every sphere they get
-  /// into.
-  std::size_t cut(Range range) {
-    if (range.size() == order_.size()) {
-      const std::size_t middle = cut_by_size();
-      if (middle < range.end) {
-        return middle;
-      }
-    }
-    return halve(range);
+  [[nodiscard]] bool is_leaf(std::uint32_t node, int room) const {
+    return fits_leaf(node) && (!grouping_ || room < 1 || grouping_->children(node).size() == 1);
   }
 
-  /// Puts the triangles of more than kLarge times the median size last.
-  std::size_t cut_by_size() {
-    constexpr double kLarge = 4;
-    std::vector<double> sizes = sizes_;
-    const auto median = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), median, sizes.end());
-    const auto large = std::stable_partition(order_.begin(), order_.end(),
-                                             [&](std::uint32_t k) { return sizes_[k] <= kLarge * *median; });
-    return static_cast<std::size_t>(large - order_.begin());
-  }
-
-  /// Cuts a range at its median centroid along the longest axis; all leaves but the last of a range stay
-  /// full.
-  std::size_t halve(Range range) {
-    glm::dvec3 low(std::numeric_limits<double>::infinity());
-    glm::dvec3 high(-std::numeric_limits<double>::infinity());
-    for (std::size_t k = range.begin; k < range.end; ++k) {
-      low = glm::min(low, centroids_[order_[k]]);
-      high = glm::max(high, centroids_[order_[k]]);
-    }
-    const glm::dvec3 extent = high - low;
-    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : (extent.y >= extent.z ? 1 : 2);
-    const std::size_t leaves = (range.size() + leaf_size_ - 1) / leaf_size_;
-    const std::size_t middle = range.begin + leaf_size_ * ((leaves + 1) / 2);
-    const auto at = [this](std::size_t k) { return order_.begin() + static_cast<std::ptrdiff_t>(k); };
-    std::nth_element(at(range.begin), at(middle), at(range.end), [&](std::uint32_t a, std::uint32_t b) {
-      const double ca = centroids_[a][axis];
-      const double cb = centroids_[b][axis];
-      return ca < cb || (ca == cb && a < b);
-    });
-    return middle;
-  }
-
-  /// Halves the largest part until there are `width` parts or all are leaves.
-  std::vector<Range> split(Range range, std::size_t width) {
-    std::vector<Range> parts{range};
-    while (parts.size() < width) {
-      const auto largest =
-          std::max_element(parts.begin(), parts.end(), [](Range a, Range b) { return a.size() < b.size(); });
-      if (largest->size() <= leaf_size_) {
-        break;
-      }
-      const Range whole = *largest;
-      const std::size_t middle = cut(whole);
-      *largest = {whole.begin, middle};
-      parts.insert(largest + 1, {middle, whole.end});
+  /// The parts that become the children's spheres: what the builder wants, or the two halves where wider
+  /// ranges would not leave the ranges below enough room.
+  [[nodiscard]] std::vector<std::uint32_t> children(std::uint32_t node, int room) const {
+    std::vector<std::uint32_t> parts = grouping_ ? grouping_->children(node) : largest_halved(node);
+    const int left = room - static_cast<int>(parts.size() - 1);
+    if (binary_.nodes[node].divided() &&
+        std::any_of(parts.begin(), parts.end(), [&](std::uint32_t part) { return levels_[part] > left; })) {
+      parts = {node + 1, binary_.nodes[node].right};
     }
     return parts;
   }
 
-  SphereNode sphere(Range range) {
-    scratch_.clear();
-    for (std::size_t k = range.begin; k < range.end; ++k) {
-      const auto& vertices = points_[order_[k]].vertices;
-      scratch_.insert(scratch_.end(), vertices.begin(), vertices.end());
+  /// Halves the largest part until there are `width` or all are leaves.
+  [[nodiscard]] std::vector<std::uint32_t> largest_halved(std::uint32_t node) const {
+    std::vector<std::uint32_t> parts{node};
+    const auto smaller = [this](std::uint32_t a, std::uint32_t b) {
+      return binary_.nodes[a].size() < binary_.nodes[b].size();
+    };
+    while (parts.size() < static_cast<std::size_t>(options_.width)) {
+      const auto largest = std::max_element(parts.begin(), parts.end(), smaller);
+      if (fits_leaf(*largest)) {
+        break;
+      }
+      const std::uint32_t whole = *largest;
+      *largest = whole + 1;
+      parts.insert(largest + 1, binary_.nodes[whole].right);
     }
-    const glm::dvec3 centre = as_stored(bounding_ball(scratch_).centre);
-    double radius = enclosing_radius(scratch_, centre);
-    for (std::size_t k = range.begin; k < range.end; ++k) {
-      radius = std::max(radius, enclosing_radius(points_[order_[k]].stored, centre));
+    return parts;
+  }
+
+  /// Levels of ranges that a walk down the binary tree stacks.
+  void find_levels() {
+    levels_.assign(binary_.nodes.size(), 0);
+    for (std::size_t k = binary_.nodes.size(); k-- > 0;) {
+      if (!fits_leaf(static_cast<std::uint32_t>(k))) {
+        levels_[k] = 1 + std::max(levels_[k + 1], levels_[binary_.nodes[k].right]);
+      }
     }
+  }
+
+  void group() {
+    std::vector<NodeCost> costs;
+    costs.reserve(binary_.nodes.size());
+    const double footprint = options_.builder == TreeBuilder::pencil ? options_.footprint : 0;
+    for (std::uint32_t k = 0; k < binary_.nodes.size(); ++k) {
+      const BinaryNode& range = binary_.nodes[k];
+      const double reach = footprint + bounding_ball(vertices_of(range)).radius;
+      costs.push_back({static_cast<float>(reach * reach),
+                       fits_leaf(k) ? leaf_clocks(range) : std::numeric_limits<float>::infinity()});
+    }
+    // Dearer spheres make larger leaves: when there are more spheres than IDs.
+    constexpr double kDearest = 64;
+    double sphere_clocks = 1;
+    do {
+      grouping_.emplace(binary_, costs, options_.width, sphere_clocks);
+      sphere_clocks *= 2;
+    } while (sphere_clocks <= kDearest && grouping_->spheres() > kMaxIds);
+  }
+
+  /// Different vertices: about the words of the leaf's strip.
+  [[nodiscard]] float leaf_clocks(BinaryNode range) const {
+    const auto vertices = vertices_of(range);
+    int different = 0;
+    for (auto p = vertices.begin(); p != vertices.end(); ++p) {
+      different += std::find(vertices.begin(), p, *p) == p ? 1 : 0;
+    }
+    return static_cast<float>(different);
+  }
+
+  [[nodiscard]] std::span<const glm::dvec3> vertices_of(BinaryNode range) const {
+    return std::span(vertices_).subspan(3 * std::size_t{range.begin}, 3 * std::size_t{range.size()});
+  }
+
+  [[nodiscard]] SphereNode sphere_around(BinaryNode range) const {
+    const auto vertices = vertices_of(range);
+    const auto stored = std::span(stored_).subspan(3 * std::size_t{range.begin}, vertices.size());
+    const glm::dvec3 centre = as_stored(bounding_ball(vertices).centre);
+    const double radius = std::max(enclosing_radius(vertices, centre), enclosing_radius(stored, centre));
     return {centre, radius, false, 0, 0};
   }
 
-  SphereNode leaf(Range range) {
-    SphereNode node = sphere(range);
+  [[nodiscard]] SphereNode leaf(BinaryNode range) const {
+    SphereNode node = sphere_around(range);
     node.leaf = true;
-    node.first = static_cast<std::uint32_t>(range.begin);
-    node.count = static_cast<std::uint32_t>(range.size());
+    node.first = range.begin;
+    node.count = range.size();
     return node;
   }
 
   std::span<const Triangle> triangles_;
-  std::size_t leaf_size_;
-  std::vector<std::uint32_t> order_;
-  std::vector<glm::dvec3> centroids_;
-  std::vector<double> sizes_;  ///< longest edges
+  TreeOptions options_;
+  BinaryTree binary_;
+  std::vector<glm::dvec3> vertices_;  ///< in the tree's order, as stored_
+  std::vector<glm::dvec3> stored_;
+  std::optional<Grouping> grouping_;  ///< none for the median
+  std::vector<int> levels_;
   std::vector<SphereNode> nodes_;
-  std::vector<TrianglePoints> points_;
-  std::vector<glm::dvec3> scratch_;
 };
 
 }  // namespace
 
 SphereTree build_flat(std::span<const Triangle> triangles, const TreeOptions& options) {
-  Builder builder(triangles, options);
-  builder.add_leaves(builder.all());
+  check_input(triangles.size(), options);
+  TreeOptions median = options;
+  median.builder = TreeBuilder::median;
+  Builder builder(triangles, median);
+  builder.add_leaves();
   return builder.finish(builder.node_count());
 }
 
 SphereTree build_tree(std::span<const Triangle> triangles, const TreeOptions& options) {
+  check_input(triangles.size(), options);
   Builder builder(triangles, options);
-  const auto [first, count] = builder.add_children(builder.all(), static_cast<std::size_t>(options.width));
-  return builder.finish(first + count);
+  return builder.finish(builder.add_children(0, kMaxStacked));
 }
 
 }  // namespace raplas

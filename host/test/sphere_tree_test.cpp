@@ -4,16 +4,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <random>
 #include <stdexcept>
 #include <string>
 
-#include "raplas/bounding_sphere.hpp"
-
 namespace raplas {
 namespace {
+
+constexpr std::array kBuilders{TreeBuilder::median, TreeBuilder::surface, TreeBuilder::pencil};
 
 /// Triangles of widely different sizes in clusters within the unit ball.
 std::vector<Triangle> random_triangles(std::size_t count, std::uint64_t seed) {
@@ -52,8 +53,11 @@ TEST(SphereTree, FlatAndTreeHoldEveryTriangleOnceInsideTheirSpheres) {
     const auto triangles = random_triangles(count, count);
     for (const int leaf : {1, 2, 3, 4, 16, 127}) {
       for (const int width : {2, 3, 4, 8}) {
-        const TreeOptions options{leaf, width};
-        for (const SphereTree& tree : {build_flat(triangles, options), build_tree(triangles, options)}) {
+        std::vector<SphereTree> built{build_flat(triangles, {leaf, width})};
+        for (const TreeBuilder builder : kBuilders) {
+          built.push_back(build_tree(triangles, {leaf, width, builder}));
+        }
+        for (const SphereTree& tree : built) {
           EXPECT_NO_THROW(check_tree(tree.scene))
               << count << " triangles, leaf " << leaf << ", width " << width;
           check_source(tree, triangles);
@@ -75,19 +79,66 @@ TEST(SphereTree, FlatListIsOneLevelOfFullLeaves) {
 }
 
 TEST(SphereTree, InnerNodesHaveAtMostWidthChildren) {
-  const SphereTree tree = build_tree(random_triangles(5000, 2), {4, 4});
-  EXPECT_LE(tree.scene.root_count, 4U);
-  for (const SphereNode& node : tree.scene.nodes) {
-    EXPECT_LE(node.count, 4U);
+  const auto triangles = random_triangles(5000, 2);
+  for (const TreeBuilder builder : kBuilders) {
+    const SphereTree tree = build_tree(triangles, {4, 4, builder});
+    EXPECT_LE(tree.scene.root_count, 4U);
+    for (const SphereNode& node : tree.scene.nodes) {
+      EXPECT_LE(node.count, 4U);
+    }
   }
 }
 
 TEST(SphereTree, EqualTrianglesStillMakeABalancedTree) {
   const std::vector<Triangle> same(5000, random_triangles(1, 9)[0]);
-  EXPECT_NO_THROW(check_tree(build_tree(same).scene));
+  for (const TreeBuilder builder : kBuilders) {
+    EXPECT_NO_THROW(check_tree(build_tree(same, {4, 4, builder}).scene));
+  }
 }
 
-TEST(SphereTree, AMillionTrianglesKeepTheStackBound) {
+/// Triangles that double in size and distance from one to the next: each cut by cost leaves one of them
+/// alone.
+std::vector<Triangle> growing_triangles(int count) {
+  std::vector<Triangle> triangles;
+  for (int k = 0; k < count; ++k) {
+    const double size = std::exp2(-0.5 * k);
+    triangles.push_back({{size, 0, 0}, {0, size / 4, 0}, {0, 0, size / 4}});
+  }
+  return triangles;
+}
+
+/// Largest sum of (count - 1) over the ranges with inner nodes on a way down from this range.
+int stacked(const DeviceScene& scene, std::uint32_t first, std::uint32_t count) {
+  int most = -1;
+  for (std::uint32_t k = first; k < first + count; ++k) {
+    const SphereNode& node = scene.nodes[k];
+    if (!node.leaf) {
+      most = std::max(most, stacked(scene, node.first, node.count));
+    }
+  }
+  return most < 0 ? 0 : most + static_cast<int>(count) - 1;
+}
+
+TEST(SphereTree, AChainFallsBackToBalancedCuts) {
+  int deepest = 0;
+  for (const int count : {30, 55, 100, 110}) {
+    const auto triangles = growing_triangles(count);
+    for (const TreeBuilder builder : kBuilders) {
+      for (const int width : {2, 3, 4, 8, 16}) {
+        for (const int leaf : {1, 2, 4}) {
+          const SphereTree tree = build_tree(triangles, {leaf, width, builder});
+          EXPECT_NO_THROW(check_tree(tree.scene)) << count << ' ' << width << ' ' << leaf;
+          check_source(tree, triangles);
+          deepest = std::max(deepest, stacked(tree.scene, tree.scene.root_first, tree.scene.root_count));
+        }
+      }
+    }
+  }
+  EXPECT_GE(deepest, kMaxStacked - 2) << "no tree comes near the bound: the test is too easy";
+}
+
+TEST(SphereTree, AMillionTrianglesKeepTheStackBoundAndTheIds) {
+  // Far apart, so that single triangles would be the cheapest leaves, of which there are too many.
   const std::size_t count = 1'000'000;
   const SphereTree tree = build_tree(random_triangles(count, 4));
   EXPECT_NO_THROW(check_tree(tree.scene));
@@ -150,35 +201,6 @@ TEST(CheckTree, FindsATreeTooDeepForTheStack) {
     scene.nodes.push_back({{0, 0, 0}, 4, last, last ? k + 1 : 2 * k + 2, last ? 1U : 2U});
   }
   EXPECT_NE(complaint(scene).find("ranges may wait"), std::string::npos) << complaint(scene);
-}
-
-TEST(BoundingBall, IsTheSmallestForFewPointsAndEnclosesMany) {
-  const std::vector<glm::dvec3> pair{{0, 0, 0}, {2, 0, 0}};
-  EXPECT_NEAR(bounding_ball(pair).radius, 1, 1e-12);
-  const double h = std::sqrt(3.0);
-  const std::vector<glm::dvec3> triangle{{-1, 0, 0}, {1, 0, 0}, {0, h, 0}, {0, h / 3, 0.1}};
-  EXPECT_NEAR(bounding_ball(triangle).radius, 2 / h, 1e-9);
-  const std::vector<glm::dvec3> obtuse{{-2, 0, 0}, {2, 0, 0}, {0, 0.1, 0}};
-  EXPECT_NEAR(bounding_ball(obtuse).radius, 2, 1e-9);
-  const std::vector<glm::dvec3> tetrahedron{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
-  EXPECT_NEAR(bounding_ball(tetrahedron).radius, h, 1e-9);
-  EXPECT_NEAR(bounding_ball(std::vector<glm::dvec3>(5, glm::dvec3(1, 2, 3))).radius, 0, 1e-12);
-
-  std::mt19937_64 random(8);
-  std::normal_distribution<double> normal;
-  for (int k = 0; k < 200; ++k) {
-    // On a sphere of radius 1: from some points on no ball is much smaller.
-    std::vector<glm::dvec3> points;
-    for (int i = 0; i < 5 + k; ++i) {
-      points.push_back(glm::normalize(glm::dvec3(normal(random), normal(random), normal(random))) + 3.0);
-    }
-    const Ball ball = bounding_ball(points);
-    EXPECT_LE(ball.radius, 1.1);
-    const double enclosing = enclosing_radius(points, ball.centre);
-    for (const glm::dvec3& p : points) {
-      EXPECT_LE(glm::distance(p, ball.centre), enclosing);
-    }
-  }
 }
 
 }  // namespace

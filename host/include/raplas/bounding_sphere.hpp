@@ -1,4 +1,4 @@
-// Small balls around points.
+// The smallest ball around points.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -11,9 +11,10 @@ struct Ball {
   double radius = -1;  ///< negative: holds nothing
 };
 
-/// A ball around the points: the smallest one (to rounding) for up to 16 points, otherwise within a few per
-/// cent of it. Sources: E. Welzl 1991 with move-to-front; J. Ritter 1990, then steps after M. Badoiu and K.
-/// Clarkson 2003. The radius is the largest computed distance; see enclosing_radius() for a proven one.
+/// The smallest ball around any number of points, to rounding. Up to 4 points are kept on the surface; each
+/// step adds the point farthest outside and takes the smallest ball around these 5 at most, so that the
+/// radius grows until nothing is outside. About ten passes over the points. Source: B. Gaertner 1999
+/// (pivoting). The radius is the largest computed distance; see enclosing_radius() for a proven one.
 [[nodiscard]] Ball bounding_ball(std::span<const glm::dvec3> points);
 
 /// A radius around `centre` that encloses every point in exact arithmetic: the largest computed distance

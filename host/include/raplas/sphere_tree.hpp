@@ -9,9 +9,18 @@
 
 namespace raplas {
 
+/// How ranges of triangles are cut in two.
+enum class TreeBuilder {
+  median,   ///< at the median along the longest axis; leaves are full
+  surface,  ///< least sum of surface times number, over boxes
+  pencil    ///< least sum of (footprint + radius)^2 times number: spheres that a pencil meets
+};
+
 struct TreeOptions {
-  int leaf_size = 4;  ///< most triangles of a leaf, 1 .. 127
-  int width = 4;      ///< most children of an inner node, 2 .. 127 (tree only)
+  int leaf_size = 4;                          ///< most triangles of a leaf, 1 .. 127
+  int width = 4;                              ///< most children of an inner node, 2 .. 127 (tree only)
+  TreeBuilder builder = TreeBuilder::pencil;  ///< (tree only)
+  double footprint = 0.06;  ///< half the width of a usual pencil at the scene, in the scene's unit (pencil)
 };
 
 /// A device's scene without max_origin, and where its triangles came from.
@@ -26,8 +35,8 @@ struct SphereTree {
 /// option is out of range, or IDs don't fit kIdBits.
 [[nodiscard]] SphereTree build_flat(std::span<const Triangle> triangles, const TreeOptions& options = {});
 
-/// The same splits as a tree; the root range is the root's children. Children of one node lie next to each
-/// other, and so do the triangles below a node. Errors as build_flat().
+/// A tree; the root range is the root's children. Children of one node lie next to each other, and so do the
+/// triangles below a node. docs/host.md says how each builder makes it. Errors as build_flat().
 [[nodiscard]] SphereTree build_tree(std::span<const Triangle> triangles, const TreeOptions& options = {});
 
 /// Most ranges that may wait on the traversal stack: what the watermark and the leaves in flight leave of it.
@@ -35,7 +44,7 @@ inline constexpr int kMaxStacked = kStackDepth - kStackWatermark - kLeafFifoDept
 
 /// Verifies what the devices rely on: every node and triangle is reached exactly once, counts are 1 .. 127,
 /// IDs fit, the triangles below a node lie next to each other, centres are fp24 numbers, each sphere encloses
-/// the triangles below it, and on every path from the root the ranges that hold inner nodes have sum of
+/// the triangles below it, and on every path from the root the ranges have sum of
 /// (count - 1) <= kMaxStacked. Throws std::runtime_error naming the node that fails.
 void check_tree(const DeviceScene& scene);
 

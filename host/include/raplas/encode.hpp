@@ -23,9 +23,17 @@ template <typename F>
   return {v.x.to_double(), v.y.to_double(), v.z.to_double()};
 }
 
-/// The words of the Sphere and Triangle memories. Vertices and edges are rounded to nearest, N = E1 x E2 is
-/// made from the rounded edges; radii are enlarged by the error bound of the plane-sphere test and rounded
-/// up. Throws std::runtime_error if the memories are too small.
+/// A word of the Triangle Memory: vertex and edges rounded to nearest, N = E1 x E2 made of the rounded edges.
+template <typename F>
+[[nodiscard]] TriangleWord<F> encode(const Triangle& t) {
+  TriangleWord<F> word{
+      encode<F>(t.v0, "vertex coordinate"), encode<F>(t.e1, "edge"), encode<F>(t.e2, "edge"), {}};
+  word.n = encode<F>(glm::cross(decode(word.e1), decode(word.e2)), "normal");
+  return word;
+}
+
+/// The words of the Sphere and Triangle memories. Radii are enlarged by the error bound of the plane-sphere
+/// test and rounded up. Throws std::runtime_error if the memories are too small.
 template <typename F>
 [[nodiscard]] SceneMemory<F> encode(const DeviceScene& scene, const DeviceOptions& options) {
   const auto check = [](const char* what, std::size_t size, std::size_t depth) {
@@ -38,10 +46,7 @@ template <typename F>
   SceneMemory<F> memory;
   memory.triangles.reserve(scene.triangles.size());
   for (const Triangle& t : scene.triangles) {
-    TriangleWord<F> word{
-        encode<F>(t.v0, "vertex coordinate"), encode<F>(t.e1, "edge"), encode<F>(t.e2, "edge"), {}};
-    word.n = encode<F>(glm::cross(decode(word.e1), decode(word.e2)), "normal");
-    memory.triangles.push_back(word);
+    memory.triangles.push_back(encode<F>(t));
   }
   memory.spheres.reserve(scene.nodes.size());
   for (const SphereNode& node : scene.nodes) {

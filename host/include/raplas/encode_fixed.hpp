@@ -1,0 +1,56 @@
+// From the host's doubles to the words of profile raplas: plane tests in fixed point, rays and triangles in
+// fp24. What is promised is stated and proved in docs/fixed_encoding.md.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "raplas/device.hpp"
+#include "raplas/fixed_point.hpp"
+#include "raplas/float.hpp"
+
+namespace raplas {
+
+/// A pencil's slack is at most this, in units of 2^-kCoordinateFraction; a node's radius leaves room for it.
+inline constexpr std::uint32_t kMaxSlack = 255;
+
+/// No corner of a triangle as stored lies farther than this from its vertex word.
+inline constexpr double kMaxVertexError = 0x1p-16;
+
+/// The Sphere, Vertex and Triangle memories and the scene register.
+struct FixedScene {
+  std::vector<NodeWord> nodes;
+  std::vector<VertexWord> vertices;
+  std::vector<TriangleWord<Fp24>> triangles;
+  SceneWord scene;
+  double vertex_error = 0;  ///< largest distance of a triangle's corner as stored from its vertex word
+};
+
+/// One bank of the Plane and Ray memories, and the pencil's registers.
+struct FixedPencil {
+  PencilWord<Fp24> pencil;
+  FixedPlanes planes;
+  std::array<Vec3<Fp24>, std::size_t{kMaxRows} * kMaxColumns> rays;  ///< ray (r, c) at r * kMaxColumns + c
+  LimitsWord limits;
+  std::array<double, std::size_t{kMaxRows} * kMaxColumns> t_scale{};  ///< Hit::t_scale of each ray
+};
+
+/// The words of a scene that check_tree() passes. Vertices are those of the triangles as stored, to nearest;
+/// corners that were one point before rounding are one vertex. Leaves become strips (strip.hpp) in the order
+/// of the tree, radii enclose the vertex words below exactly. Throws std::runtime_error with one line, naming
+/// the node where it is one, if a vertex lies outside the unit ball, a centre outside the format, a radius
+/// has no room for kMaxSlack, or a leaf or the scene takes too many words.
+[[nodiscard]] FixedScene encode_fixed(const DeviceScene& scene);
+
+/// The words of a pencil for scenes whose vertex_error is at most `vertex_error`. Rays are scaled to axis.D =
+/// 1 before they are rounded. Every ray that hits a triangle, both as stored, before `far` and in exact
+/// arithmetic, has a row and a column that the tests find crossed; `near` holds for a vertex and z is at most
+/// the depth code of t. Throws std::invalid_argument for a pencil without axis or a ray that doesn't go along
+/// it, std::range_error for an origin far outside the unit ball.
+[[nodiscard]] FixedPencil encode_fixed(const Pencil& pencil, double vertex_error = kMaxVertexError);
+
+/// A result as the renderer takes it; `ray` as in FixedPencil::rays.
+[[nodiscard]] Hit decode_fixed(const ResultWord<Fp24>& word, const FixedPencil& pencil, std::size_t ray);
+
+}  // namespace raplas

@@ -2,11 +2,23 @@
 
 #include <fmt/format.h>
 
+#include <glm/geometric.hpp>
 #include <stdexcept>
 
 #include "device_factories.hpp"
 
 namespace raplas {
+
+void drop_far_hits(const Pencil& pencil, std::span<Hit> hits) {
+  if (!pencil.any_hit) {
+    return;
+  }
+  for (std::size_t ray = 0; ray < hits.size(); ++ray) {
+    if (hits[ray].hit && hits[ray].t() * glm::dot(pencil.axis, pencil.directions[ray]) >= pencil.far) {
+      hits[ray] = {};
+    }
+  }
+}
 
 std::unique_ptr<IntersectionDevice> make_device(const std::string& name, const DeviceOptions& options) {
   if (name == "reference") {

@@ -1,23 +1,37 @@
-// Device `model`: the clocked golden model.
+// Device `model`: the clocked golden models.
 #include "device_factories.hpp"
+#include "fixed_device.hpp"
+#include "model_unit.hpp"
 #include "raplas/encode.hpp"
 
 namespace raplas {
 namespace {
 
-template <typename F>
-class ModelDevice final : public IntersectionDevice {
+/// Profile paper: one pencil after the other.
+class PaperModelDevice final : public IntersectionDevice {
  public:
-  explicit ModelDevice(const DeviceOptions& options) : options_(options) {}
+  explicit PaperModelDevice(const DeviceOptions& options) : options_(options) {}
 
   void load(const DeviceScene& scene) override {
-    scene_ = encode<F>(scene, options_);
+    scene_ = encode<Fp24Paper>(scene, options_);
     unit_.load(&scene_);
     counters_ = {};
   }
 
-  std::vector<Hit> trace(const Pencil& pencil) override {
-    unit_.pencil(bank_) = encode<F>(pencil);
+  std::vector<std::vector<Hit>> trace(std::span<const Pencil> pencils) override {
+    std::vector<std::vector<Hit>> hits;
+    hits.reserve(pencils.size());
+    for (const Pencil& pencil : pencils) {
+      hits.push_back(trace_one(pencil));
+    }
+    return hits;
+  }
+
+  [[nodiscard]] Counters counters() const override { return counters_; }
+
+ private:
+  std::vector<Hit> trace_one(const Pencil& pencil) {
+    unit_.pencil(bank_) = encode<Fp24Paper>(pencil);
     unit_.clock(true, bank_);
     while (unit_.busy()) {
       unit_.clock(false, bank_);
@@ -29,6 +43,7 @@ class ModelDevice final : public IntersectionDevice {
         hits.push_back(decode(unit_.results(bank_)[r * kMaxColumns + c]));
       }
     }
+    drop_far_hits(pencil, hits);
     for (std::size_t k = 0; k < counters_.size(); ++k) {
       counters_[k] += unit_.counters()[k];
     }
@@ -36,12 +51,9 @@ class ModelDevice final : public IntersectionDevice {
     return hits;
   }
 
-  [[nodiscard]] Counters counters() const override { return counters_; }
-
- private:
   DeviceOptions options_;
-  SceneMemory<F> scene_;
-  IntersectionUnit<F> unit_;
+  SceneMemory<Fp24Paper> scene_;
+  IntersectionUnit<Fp24Paper> unit_;
   Counters counters_{};
   std::size_t bank_ = 0;
 };
@@ -49,10 +61,10 @@ class ModelDevice final : public IntersectionDevice {
 }  // namespace
 
 std::unique_ptr<IntersectionDevice> make_model_device(const DeviceOptions& options) {
-  if (options.guard_bits) {
-    return std::make_unique<ModelDevice<Fp24>>(options);
+  if (options.profile == Profile::paper) {
+    return std::make_unique<PaperModelDevice>(options);
   }
-  return std::make_unique<ModelDevice<Fp24Paper>>(options);
+  return std::make_unique<FixedDevice<ModelUnit>>(options);
 }
 
 }  // namespace raplas

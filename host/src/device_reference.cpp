@@ -21,14 +21,19 @@ class ReferenceDevice final : public IntersectionDevice {
     }
   }
 
-  std::vector<Hit> trace(const Pencil& pencil) override {
-    std::vector<Hit> hits;
-    hits.reserve(pencil.directions.size());
-    for (const glm::dvec3& direction : pencil.directions) {
-      hits.push_back(trace_ray(pencil.origin, direction));
-      count(Counter::hits) += hits.back().hit ? 1U : 0U;
+  std::vector<std::vector<Hit>> trace(std::span<const Pencil> pencils) override {
+    std::vector<std::vector<Hit>> all;
+    all.reserve(pencils.size());
+    for (const Pencil& pencil : pencils) {
+      std::vector<Hit>& hits = all.emplace_back();
+      hits.reserve(pencil.directions.size());
+      for (const glm::dvec3& direction : pencil.directions) {
+        hits.push_back(trace_ray(pencil.origin, direction));
+        count(Counter::hits) += hits.back().hit ? 1U : 0U;
+      }
+      drop_far_hits(pencil, hits);
     }
-    return hits;
+    return all;
   }
 
   [[nodiscard]] Counters counters() const override { return counters_; }

@@ -16,8 +16,9 @@ namespace {
 
 constexpr int kExitFailure = 1;
 constexpr int kExitUsage = 2;
+constexpr int kMaxSample = 1 << 20;
 
-/// Options of both subcommands as given; what is absent comes from the profile.
+/// Options of the subcommands as given; what is absent comes from the profile.
 struct CommandLine {
   std::string scene;
   std::string profile = "raplas";
@@ -32,29 +33,34 @@ struct CommandLine {
   bool quiet = false;
 };
 
-void add_options(CLI::App& app, CommandLine& line) {
+/// What every subcommand has.
+void add_common_options(CLI::App& app, CommandLine& line) {
   constexpr int kMaxSide = 16384;
   app.add_option("scene", line.scene, "scene (.json) or mesh (.obj .ply .stl .gltf .glb .bpt)")->required();
+  app.add_option("--width", line.width, "pixels")->check(CLI::Range(1, kMaxSide))->capture_default_str();
+  app.add_option("--height", line.height, "pixels")->check(CLI::Range(1, kMaxSide))->capture_default_str();
+  app.add_option("--leaf", line.leaf, "most triangles of a sphere without children")
+      ->check(CLI::Range(1, (1 << kCountBits) - 1))
+      ->capture_default_str();
+  app.add_option("--json", line.json, "file for figures");
+  app.add_flag("--quiet", line.quiet, "no progress, no summary");
+}
+
+void add_options(CLI::App& app, CommandLine& line) {
+  add_common_options(app, line);
   app.add_option("--profile", line.profile,
                  "paper: 4x4 pencils, no guard bits, flat list; raplas: 16x16, guarded, tree")
       ->check(CLI::IsMember({"paper", "raplas"}))
       ->capture_default_str();
-  app.add_option("--width", line.width, "pixels")->check(CLI::Range(1, kMaxSide))->capture_default_str();
-  app.add_option("--height", line.height, "pixels")->check(CLI::Range(1, kMaxSide))->capture_default_str();
   app.add_option("--pencil", line.pencil, "rays in a row of a camera pencil")->check(CLI::Range(1, kMaxRows));
   app.add_option("--shadow", line.shadow, "rays in a row of a shadow pencil, 0: no shadows")
       ->check(CLI::Range(0, kMaxRows))
       ->capture_default_str();
   app.add_option("--structure", line.structure, "of the bounding spheres")
       ->check(CLI::IsMember({"flat", "tree"}));
-  app.add_option("--leaf", line.leaf, "most triangles of a sphere without children")
-      ->check(CLI::Range(1, (1 << kCountBits) - 1))
-      ->capture_default_str();
   app.add_option("--memories", line.memories, "chip: 4096 triangles and 4096 spheres; simulation: 2^20 each")
       ->check(CLI::IsMember({"chip", "simulation"}))
       ->capture_default_str();
-  app.add_option("--json", line.json, "file for figures");
-  app.add_flag("--quiet", line.quiet, "no progress, no summary");
 }
 
 Settings resolve(const CommandLine& line) {
@@ -68,7 +74,7 @@ Settings resolve(const CommandLine& line) {
                      line.shadow};
   settings.flat = line.structure.value_or(paper ? "flat" : "tree") == "flat";
   settings.tree.leaf_size = line.leaf;
-  settings.device.guard_bits = !paper;
+  settings.device.profile = paper ? Profile::paper : Profile::raplas;
   if (line.memories == "chip") {
     settings.device.sphere_depth = kChipDepth;
     settings.device.triangle_depth = kChipDepth;
@@ -105,6 +111,28 @@ int parse_and_run(int argc, char** argv) {
   std::string folder = "compare";
   compare->add_option("-o,--output", folder, "folder for the pictures")->capture_default_str();
 
+  CLI::App* skip =
+      app.add_subcommand("skip", "Measure what profile raplas skips, and that no skip changes a hit");
+  CommandLine skip_line;
+  skip_line.width = 1024;
+  skip_line.height = 1024;
+  add_common_options(*skip, skip_line);
+  SkipCommand skipping;
+  std::string maps = "skip";
+  skipping.sample = 256;
+  skipping.tile = kMaxRows;
+  skip->add_option("-o,--output", maps, "folder for the heat maps")->capture_default_str();
+  skip->add_option("--name", skipping.name, "of the scene in the figures (default: the file's)");
+  skip->add_option("--sample", skipping.sample, "pencils of a kind that are walked with each skip, about")
+      ->check(CLI::Range(1, kMaxSample))
+      ->capture_default_str();
+  skip->add_option("--tile", skipping.tile, "one shadow pencil in so many rows and columns of pixels")
+      ->check(CLI::Range(1, kMaxSample))
+      ->capture_default_str();
+  skip->add_option("--rtl", skipping.rtl, "pencils that the RTL traces too, as the model, about")
+      ->check(CLI::Range(0, kMaxSample))
+      ->capture_default_str();
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked_for_help) {
@@ -119,6 +147,12 @@ int parse_and_run(int argc, char** argv) {
   std::string command_line = "raplas";
   for (int k = 1; k < argc; ++k) {
     command_line += std::string(" ") + argv[k];
+  }
+  if (skip->parsed()) {
+    skipping.settings = resolve(skip_line);
+    skipping.folder = maps;
+    skipping.command_line = command_line;
+    return run(skipping);
   }
   return run(CompareCommand{resolve(line), folder, command_line});
 }

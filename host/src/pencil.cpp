@@ -20,6 +20,16 @@ Plane plane_through(const glm::dvec3& origin, const glm::dvec3& point, const glm
   return {unit, -glm::dot(unit, origin)};
 }
 
+/// The unit normal of the grid's plane that points away from the origin.
+glm::dvec3 axis_towards(const Grid& grid, const glm::dvec3& origin) {
+  const glm::dvec3 normal = glm::cross(grid.row_step, grid.column_step);
+  const double towards = glm::dot(normal, grid.first - origin);
+  if (!(std::abs(towards) > 0)) {
+    throw std::invalid_argument("the pencil's origin lies in the grid's plane");
+  }
+  return (towards > 0 ? normal : -normal) / glm::length(normal);
+}
+
 }  // namespace
 
 Pencil make_pencil(const glm::dvec3& origin, const Grid& grid) {
@@ -44,6 +54,7 @@ Pencil make_pencil(const glm::dvec3& origin, const Grid& grid) {
       pencil.directions.push_back(glm::normalize(point - origin));
     }
   }
+  pencil.axis = axis_towards(grid, origin);
   return pencil;
 }
 

@@ -1,4 +1,4 @@
-// The renderer: tiles of the image, one camera pencil each.
+// The renderer: tiles of the image, one camera pencil each, many of them at a time.
 #include "raplas/renderer.hpp"
 
 #include <algorithm>
@@ -10,25 +10,16 @@
 
 #include "raplas/pencil.hpp"
 #include "shading.hpp"
+#include "shadow_pencil.hpp"
 
 namespace raplas {
 namespace {
 
-/// An occluder counts when it is nearer than this share of the way to the light.
-constexpr double kBeforeLight = 1 - 1e-3;
+/// Pencils that go to the device together.
+constexpr std::size_t kBatch = 1024;
 
 /// Samples of the light in a row and column where no shadow rays are traced.
 constexpr int kUnshadowedSamples = 4;
-
-/// A number in -0.5 .. 0.5 for each pixel and `salt`, always the same (integer mixing after SplitMix64).
-double pixel_noise(int x, int y, std::uint64_t salt) {
-  std::uint64_t z =
-      (static_cast<std::uint64_t>(y) << 32) + static_cast<std::uint64_t>(x) + salt * 0x9e3779b97f4a7c15U;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-  z ^= z >> 31;
-  return static_cast<double>(z >> 11) * 0x1p-53 - 0.5;
-}
 
 class Renderer {
  public:
@@ -50,62 +41,115 @@ class Renderer {
     image.width = options_.width;
     image.height = options_.height;
     image.pixels.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
-    for (int y = 0; y < image.height; y += size) {
-      for (int x = 0; x < image.width; x += size) {
-        render_tile(x, y, std::min(size, image.width - x), std::min(size, image.height - y));
-        if (hooks_.progress) {
-          const double rows = y + double(size) * std::min(x + size, image.width) / image.width;
-          hooks_.progress(std::min(1.0, rows / image.height));
-        }
-      }
+    const int tiles = (image.width + size - 1) / size;
+    const int rows = std::max(1, static_cast<int>(kBatch) / tiles) * size;  // of pixels
+    for (int y = 0; y < image.height; y += rows) {
+      render_rows(y, std::min(y + rows, image.height));
     }
     return std::move(result_);
   }
 
  private:
-  std::vector<Hit> trace(const Pencil& pencil, std::uint64_t& rays) {
+  /// A pixel that waits for its shadow rays.
+  struct Lit {
+    std::size_t pixel;
+    glm::dvec3 colour;  ///< without the light
+    SurfacePoint point;
+    Grid light;
+  };
+
+  std::vector<std::vector<Hit>> trace(std::span<const Pencil> pencils, std::uint64_t& rays) {
     const auto start = std::chrono::steady_clock::now();
-    std::vector<Hit> hits = device_.trace(pencil);
+    std::vector<std::vector<Hit>> hits = device_.trace(pencils);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    if (hits.size() != pencil.directions.size()) {
-      throw std::runtime_error("the device gave a wrong number of hits");
-    }
     result_.stats.trace_seconds += seconds.count();
-    result_.stats.pencils += 1;
-    rays += hits.size();
-    if (hooks_.hits) {
-      hooks_.hits(hits);
+    result_.stats.pencils += pencils.size();
+    for (std::size_t k = 0; k < pencils.size(); ++k) {
+      if (hits.size() != pencils.size() || hits[k].size() != pencils[k].directions.size()) {
+        throw std::runtime_error("the device gave a wrong number of hits");
+      }
+      rays += hits[k].size();
+      if (hooks_.hits) {
+        hooks_.hits(hits[k]);
+      }
     }
     return hits;
   }
 
-  void render_tile(int x0, int y0, int columns, int rows) {
-    const Pencil pencil = camera_.pencil(x0, y0, columns, rows);
-    const std::vector<Hit> hits = trace(pencil, result_.stats.camera_rays);
-    for (int r = 0; r < rows; ++r) {
-      for (int c = 0; c < columns; ++c) {
-        const auto ray =
-            static_cast<std::size_t>(r) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(c);
-        const auto pixel = static_cast<std::size_t>(y0 + r) * static_cast<std::size_t>(options_.width) +
-                           static_cast<std::size_t>(x0 + c);
-        result_.image.pixels[pixel] = shade(hits[ray], pencil.directions[ray], x0 + c, y0 + r);
+  /// Rows of tiles: their camera pencils, then their shadow pencils.
+  void render_rows(int begin, int end) {
+    struct Tile {
+      int x;
+      int y;
+    };
+    std::vector<Tile> tiles;
+    std::vector<Pencil> pencils;
+    for (int y = begin; y < end; y += options_.pencil) {
+      for (int x = 0; x < options_.width; x += options_.pencil) {
+        tiles.push_back({x, y});
+        pencils.push_back(camera_.pencil(x, y, std::min(options_.pencil, options_.width - x),
+                                         std::min(options_.pencil, end - y)));
       }
+    }
+    const auto hits = trace(pencils, result_.stats.camera_rays);
+    for (std::size_t tile = 0; tile < pencils.size(); ++tile) {
+      const Pencil& pencil = pencils[tile];
+      for (std::size_t ray = 0; ray < pencil.directions.size(); ++ray) {
+        shade(hits[tile][ray], pencil.directions[ray], tiles[tile].x + static_cast<int>(ray) % pencil.columns,
+              tiles[tile].y + static_cast<int>(ray) / pencil.columns);
+      }
+      if (hooks_.progress) {
+        const double share = static_cast<double>(tile + 1) / static_cast<double>(pencils.size());
+        hooks_.progress((begin + share * (end - begin)) / options_.height);
+      }
+    }
+    trace_shadows();
+  }
+
+  void shade(const Hit& hit, const glm::dvec3& direction, int x, int y) {
+    const auto pixel =
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(options_.width) + static_cast<std::size_t>(x);
+    auto& colour = result_.image.pixels[pixel];
+    const double limit = hit.hit ? hit.t() : std::numeric_limits<double>::infinity();
+    if (sees_light(scene_.light, scene_.camera.eye, direction, limit)) {
+      colour = scene_.light.intensity;
+      return;
+    }
+    if (!hit.hit) {
+      colour = scene_.background;
+      return;
+    }
+    const SurfacePoint point = seen_point(scene_, source_[hit.triangle], hit, direction);
+    const glm::dvec3 unlit = point.colour * ambient(point);
+    colour = unlit;
+    if (!needs_shadow_rays(point, scene_.light)) {
+      return;
+    }
+    const int size = options_.shadow > 0 ? options_.shadow : kUnshadowedSamples;
+    const Grid light = shadow_grid(scene_.light, size, x, y);
+    if (options_.shadow == 0) {
+      colour = unlit + reflected(point, light, shadow_origin(point), {});
+      return;
+    }
+    waiting_.push_back({pixel, unlit, point, light});
+    if (waiting_.size() == kBatch) {
+      trace_shadows();
     }
   }
 
-  glm::dvec3 shade(const Hit& hit, const glm::dvec3& direction, int x, int y) {
-    const double limit = hit.hit ? hit.t() : std::numeric_limits<double>::infinity();
-    if (sees_light(scene_.light, scene_.camera.eye, direction, limit)) {
-      return scene_.light.intensity;
+  void trace_shadows() {
+    std::vector<Pencil> pencils;
+    pencils.reserve(waiting_.size());
+    for (const Lit& lit : waiting_) {
+      pencils.push_back(shadow_pencil(lit.point, lit.light));
     }
-    if (!hit.hit) {
-      return scene_.background;
+    const auto hits = trace(pencils, result_.stats.shadow_rays);
+    for (std::size_t k = 0; k < waiting_.size(); ++k) {
+      const Lit& lit = waiting_[k];
+      result_.image.pixels[lit.pixel] =
+          lit.colour + reflected(lit.point, lit.light, pencils[k].origin, hits[k]);
     }
-    const std::uint32_t triangle = source_[hit.triangle];
-    const SurfacePoint point =
-        surface_point(scene_.triangles[triangle], scene_.surfaces[triangle], hit, direction);
-    return point.colour *
-           (ambient(point) + scene_.light.intensity * (irradiance(point, x, y) / glm::pi<double>()));
+    waiting_.clear();
   }
 
   /// Light from everywhere, of which surfaces that face up get twice as much as those that face down.
@@ -113,31 +157,21 @@ class Renderer {
     return scene_.ambient * (0.75 + 0.25 * glm::dot(point.normal, up_));
   }
 
-  /// Irradiance from the light at radiance 1. Its samples are shifted within their cells, differently in each
-  /// pixel.
-  double irradiance(const SurfacePoint& point, int x, int y) {
-    if (!may_be_lit(point, scene_.light)) {
-      return 0;
-    }
-    const int size = options_.shadow > 0 ? options_.shadow : kUnshadowedSamples;
-    const Grid grid = light_grid(scene_.light, size, pixel_noise(x, y, 1), pixel_noise(x, y, 2));
-    const glm::dvec3 origin = shadow_origin(point);
-    std::vector<Hit> hits;
-    if (options_.shadow > 0) {
-      hits = trace(make_pencil(origin, grid), result_.stats.shadow_rays);
-    }
-    double sum = 0;
-    for (int r = 0; r < size; ++r) {
-      for (int c = 0; c < size; ++c) {
-        const glm::dvec3 to = grid.first + double(r) * grid.row_step + double(c) * grid.column_step - origin;
-        const auto ray =
-            static_cast<std::size_t>(r) * static_cast<std::size_t>(size) + static_cast<std::size_t>(c);
-        const bool occluded =
-            !hits.empty() && hits[ray].hit && hits[ray].t() < glm::length(to) * kBeforeLight;
-        sum += occluded ? 0 : form_factor(point, to, light_normal_, light_area_ / (size * size));
+  /// What the point reflects of the light whose samples no hit hides (none of them if there are no hits).
+  [[nodiscard]] glm::dvec3 reflected(const SurfacePoint& point, const Grid& light, const glm::dvec3& origin,
+                                     std::span<const Hit> hidden) const {
+    double irradiance = 0;  // at radiance 1
+    for (int r = 0; r < light.rows; ++r) {
+      for (int c = 0; c < light.columns; ++c) {
+        const int ray = r * light.columns + c;
+        if (hidden.empty() || !hidden[static_cast<std::size_t>(ray)].hit) {
+          const glm::dvec3 to =
+              light.first + double(r) * light.row_step + double(c) * light.column_step - origin;
+          irradiance += form_factor(point, to, light_normal_, light_area_ / (light.rows * light.columns));
+        }
       }
     }
-    return sum;
+    return point.colour * (scene_.light.intensity * (irradiance / glm::pi<double>()));
   }
 
   const Scene& scene_;
@@ -149,6 +183,7 @@ class Renderer {
   glm::dvec3 up_;
   glm::dvec3 light_normal_;
   double light_area_;
+  std::vector<Lit> waiting_;
   Rendering result_;
 };
 

@@ -183,5 +183,85 @@ TEST_F(Cli, ComparesTheDevicesOfThisBuild) {
   expect_error("compare gone.obj -o stdout", 1, "stdout: cannot be made a folder");
 }
 
+TEST_F(Cli, MeasuresWhatIsSkipped) {
+  ASSERT_EQ(raplas("skip " + kScene + " --quiet --width 40 --height 24 --name box -o maps --json s.json"), 0)
+      << folder_.read("stdout") << folder_.read("stderr");
+  for (const char* name : {"objects.png", "pairs.png", "cycles.png"}) {
+    EXPECT_EQ(folder_.read(std::string("maps/") + name).substr(0, 8), "\x89PNG\r\n\x1a\n") << name;
+  }
+  const auto figures = json("s.json");
+  const auto value = [&](const std::string& name) {
+    EXPECT_TRUE(figures.contains(name)) << name;
+    return figures.contains(name) ? figures[name]["value"].get<double>() : -1;
+  };
+  EXPECT_EQ(value("skip.box.triangles"), 1008);
+  EXPECT_EQ(value("skip_step.box.camera.brute.pairs_per_ray"), 1008);
+  for (const std::string kind : {"camera", "shadow"}) {
+    const std::string clocked = "skip.box." + kind;
+    EXPECT_GT(value(clocked + ".compared"), 0);
+    EXPECT_EQ(value(clocked + ".different"), 0);
+    const double either = value(clocked + ".busy_percent");
+    const double objects = value(clocked + ".testers_busy_percent");
+    const double pairs = value(clocked + ".pairs_busy_percent");
+    EXPECT_GE(either, std::max(objects, pairs));
+    EXPECT_LE(either, std::min(objects + pairs, 100.0));
+    // one object and one pair a clock: tests a ray and the percentages say the same
+    const double clocks = 1 / value(clocked + ".rays_per_clock");
+    EXPECT_NEAR(value(clocked + ".sphere_tests_per_ray") + value(clocked + ".vertex_tests_per_ray"),
+                objects / 100 * clocks, 1e-9);
+    EXPECT_NEAR(value(clocked + ".pairs_per_ray"), pairs / 100 * clocks, 1e-9);
+    EXPECT_GT(value("skip_paper.box." + kind + ".rays_per_clock"), 0);
+    // what is skipped is not tested
+    const std::string step = "skip_step.box." + kind + ".";
+    EXPECT_LT(value(step + "tree.sphere_tests_per_ray"), value(step + "flat.sphere_tests_per_ray"));
+    EXPECT_LE(value(step + "tree.pairs_per_ray"), value(step + "flat.pairs_per_ray"));
+    EXPECT_LE(value(step + "inherited.pairs_per_ray"), value(step + "tree.pairs_per_ray"));
+    EXPECT_LE(value(step + "behind.pairs_per_ray"), value(step + "inherited.pairs_per_ray"));
+    EXPECT_LT(value(step + "hidden.pairs_per_ray"), value(step + "nearest.pairs_per_ray"));
+    EXPECT_LT(value(step + "rectangles.pairs_per_ray"), value(step + "hidden.pairs_per_ray"));
+    EXPECT_EQ(value(step + "hidden.vertex_tests_per_ray"), 0);
+  }
+  EXPECT_LE(value("skip_step.box.shadow.ended.pairs_per_ray"),
+            value("skip_step.box.shadow.rectangles.pairs_per_ray"));
+  EXPECT_FALSE(figures.contains("skip_step.box.camera.ended.pairs_per_ray"));
+  EXPECT_NE(folder_.read("stdout").find("different: 0"), std::string::npos);
+}
+
+TEST_F(Cli, MeasuresTheSameTwice) {
+  const std::string run = "skip " + kScene + " --quiet --width 20 --height 36 --sample 2 --tile 5 ";
+  ASSERT_EQ(raplas(run + "-o a --json a.json"), 0) << folder_.read("stderr");
+  ASSERT_EQ(raplas(run + "-o b --json b.json"), 0) << folder_.read("stderr");
+  EXPECT_EQ(folder_.read("a/cycles.png"), folder_.read("b/cycles.png"));
+  const auto a = json("a.json");
+  const auto b = json("b.json");
+  ASSERT_EQ(a.size(), b.size());
+  for (const auto& [name, figure] : a.items()) {
+    EXPECT_EQ(figure["value"], b[name]["value"]) << name;
+  }
+}
+
+TEST_F(Cli, MeasuresTheModelAgainstTheRtl) {
+#ifdef RAPLAS_WITH_RTL
+  ASSERT_EQ(raplas("skip " + kScene + " --quiet --width 48 --height 32 --rtl 4 --json s.json"), 0)
+      << folder_.read("stdout") << folder_.read("stderr");
+  const auto figures = json("s.json");
+  EXPECT_GE(figures["skip.rtl.pencils_checked"]["value"], 4);
+  EXPECT_EQ(figures["skip.rtl.differences"]["value"], 0);
+#else
+  expect_error("skip " + kScene + " --quiet --rtl 4", 1, "no Verilator model");
+#endif
+}
+
+TEST_F(Cli, ExplainsWhyItCannotMeasure) {
+  expect_error("skip gone.obj -o stdout", 1, "stdout: cannot be made a folder");
+  expect_error("skip gone.obj -o . --json missing/x.json", 1, "missing/x.json: cannot be written");
+  expect_error("skip gone.obj -o .", 1, "gone.obj: no such file");
+  expect_error("skip", 2, "scene");
+  expect_error("skip a.obj --profile paper", 2, "--profile");
+  expect_error("skip a.obj --sample 0", 2, "--sample");
+  expect_error("skip a.obj --tile x", 2, "--tile");
+  expect_error("skip a.obj --rtl -1", 2, "--rtl");
+}
+
 }  // namespace
 }  // namespace raplas

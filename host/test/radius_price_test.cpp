@@ -59,7 +59,20 @@ class Accountant final : public IntersectionDevice {
     }
   }
 
-  std::vector<Hit> trace(const Pencil& pencil) override {
+  std::vector<std::vector<Hit>> trace(std::span<const Pencil> pencils) override {
+    std::vector<std::vector<Hit>> hits;
+    hits.reserve(pencils.size());
+    for (const Pencil& pencil : pencils) {
+      hits.push_back(trace_one(pencil));
+    }
+    return hits;
+  }
+
+  [[nodiscard]] Counters counters() const override { return {}; }
+  [[nodiscard]] const Price& price() const { return price_; }
+
+ private:
+  std::vector<Hit> trace_one(const Pencil& pencil) {
     const PencilMemory<F> words = encode<F>(pencil);
     check(words.pencil.origin, kMaxOrigin);
     for (const auto& planes : {words.rows, words.columns}) {
@@ -99,10 +112,6 @@ class Accountant final : public IntersectionDevice {
     return hits;
   }
 
-  [[nodiscard]] Counters counters() const override { return {}; }
-  [[nodiscard]] const Price& price() const { return price_; }
-
- private:
   struct Meets {
     bool truly = false;
     bool here = false;

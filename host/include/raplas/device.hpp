@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -55,9 +56,13 @@ struct Pencil {
   std::vector<Plane> row_planes;       ///< plane r holds the rays of row r
   std::vector<Plane> column_planes;    ///< plane c holds the rays of column c
   std::vector<glm::dvec3> directions;  ///< unit length, ray (r, c) at r * columns + c
+  glm::dvec3 axis{0};                  ///< unit normal of the grid's plane, towards the grid
+  double far = std::numeric_limits<double>::infinity();  ///< hits deeper along the axis need not be found
+  bool any_hit = false;                                  ///< a hit is enough, it need not be the nearest
 };
 
-/// The nearest hit of a ray in the division-free form: t = t_scaled / d, u = u_scaled / d, v = v_scaled / d.
+/// The nearest hit of a ray in the division-free form: t = t_scale * t_scaled / d, u = u_scaled / d,
+/// v = v_scaled / d.
 /// Values of the 24-bit devices are exact here, so that two devices agree bit by bit if these are equal.
 struct Hit {
   bool hit = false;
@@ -66,8 +71,9 @@ struct Hit {
   double d = 0;  ///< |N.D| > 0 for a hit
   double u_scaled = 0;
   double v_scaled = 0;
+  double t_scale = 1;  ///< length of the direction that the device used
 
-  [[nodiscard]] double t() const noexcept { return t_scaled / d; }
+  [[nodiscard]] double t() const noexcept { return t_scale * t_scaled / d; }
   friend bool operator==(const Hit&, const Hit&) = default;
 };
 
@@ -83,19 +89,28 @@ class IntersectionDevice {
   /// a number outside the device's format.
   virtual void load(const DeviceScene& scene) = 0;
 
-  /// Traces a pencil: one hit for each ray, in the order of Pencil::directions.
-  [[nodiscard]] virtual std::vector<Hit> trace(const Pencil& pencil) = 0;
+  /// Traces pencils; they may overlap in the device. For each pencil one hit for each ray, in the order of
+  /// Pencil::directions. Hits at a depth along the axis of more than Pencil::far may be among them, except
+  /// that of a pencil with any_hit every hit lies before far (1 + 2^-8).
+  [[nodiscard]] virtual std::vector<std::vector<Hit>> trace(std::span<const Pencil> pencils) = 0;
+  [[nodiscard]] std::vector<Hit> trace(const Pencil& pencil) { return trace(std::span(&pencil, 1)).front(); }
 
   /// Counts since load().
   [[nodiscard]] virtual Counters counters() const = 0;
 
   /// Clocks simulated by trace(), pencils written and results read included; 0 if nothing is simulated.
   [[nodiscard]] virtual std::uint64_t simulated_clocks() const { return 0; }
+
+  /// Pencils since load() that were not given to the unit, as they miss the spheres of the root range.
+  [[nodiscard]] virtual std::uint64_t skipped_pencils() const { return 0; }
 };
+
+/// What a device is an instance of: the paper's unit, or all that has been learnt since.
+enum class Profile { paper, raplas };
 
 /// How a device is built.
 struct DeviceOptions {
-  bool guard_bits = true;               ///< false: the paper's adder without guard bits
+  Profile profile = Profile::raplas;
   std::size_t sphere_depth = 1U << 20;  ///< words of the Sphere Memory; XC4VSX35: 4096
   std::size_t triangle_depth = 1U << 20;
 };

@@ -19,7 +19,8 @@ struct Grid {
 
 /// The pencil through a grid. Row plane r goes through the origin and the grid line of row r (its direction
 /// is column_step), column plane c through that of column c; normals have unit length. Each ray lies in its
-/// two planes. Throws std::invalid_argument for a size out of range or an origin on one of the grid lines.
+/// two planes. Throws std::invalid_argument for a size out of range, an origin on one of the grid lines or in
+/// the grid's plane, and a grid without area.
 [[nodiscard]] Pencil make_pencil(const glm::dvec3& origin, const Grid& grid);
 
 /// Makes the pencils of a camera's image.

@@ -1,0 +1,189 @@
+// What the devices of profile raplas share: the host's side of the write port, the start and the read port.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "raplas/encode_fixed.hpp"
+#include "raplas/fixed_trace.hpp"
+
+namespace raplas {
+
+/// Words of a pencil, in the order in which FixedDevice writes them: registers, planes, rays of its rows.
+[[nodiscard]] inline std::size_t pencil_words(const FixedPencilMemory<Fp24>& pencil) {
+  const std::size_t rows = pencil.pencil.rows;
+  const std::size_t columns = pencil.pencil.columns;
+  return 4 + rows + columns + rows * columns;
+}
+
+/// What the unit would do with the pencil and a sphere of the root range: walk on, or drop the sphere.
+[[nodiscard]] inline bool meets(const FixedPencilMemory<Fp24>& pencil, const NodeWord& node) {
+  const auto low_bits = [](std::uint32_t lines) { return (std::uint32_t{1} << lines) - 1; };
+  const FixedTest test = test_object(pencil.planes, node.centre, node.radius, pencil.limits.slack);
+  return test.near && test.z < pencil.limits.far && (test.rows_meet & low_bits(pencil.pencil.rows)) != 0 &&
+         (test.columns_meet & low_bits(pencil.pencil.columns)) != 0;
+}
+
+/// Streams pencils through a unit: in each clock a word may be written, a bank started and a result read, so
+/// that pencils are loaded and read while others run. Unit is the clocked model or the RTL:
+///   load(scene)                             resets, writes the memories
+///   write_pencil_word(pencil, bank, k)      in the next clock()
+///   ask(bank, ray)                          in the next clock(); result() after kMemoryStages of them
+///   clock(start, bank), busy(), result(), counters()
+template <typename Unit>
+class FixedDevice final : public IntersectionDevice {
+ public:
+  explicit FixedDevice(const DeviceOptions& options) : options_(options) {}
+
+  void load(const DeviceScene& scene) override {
+    FixedScene words = encode_fixed(scene);
+    vertex_error_ = words.vertex_error;
+    check("spheres, the Sphere Memory holds", words.nodes.size(), options_.sphere_depth);
+    check("vertices, the Vertex Memory holds", words.vertices.size(), 2 * options_.triangle_depth);
+    check("triangles, the Triangle Memory holds", words.triangles.size(), options_.triangle_depth);
+    const auto root = words.nodes.begin() + words.scene.first;
+    root_.assign(root, root + words.scene.count);
+    unit_.load({std::move(words.nodes), std::move(words.vertices), std::move(words.triangles), words.scene});
+    counters_ = {};
+    last_counters_ = {};
+    clocks_ = 0;
+    skipped_pencils_ = 0;
+  }
+
+  std::vector<std::vector<Hit>> trace(std::span<const Pencil> pencils) override {
+    std::vector<std::vector<Hit>> hits(pencils.size());
+    Progress at;
+    next_pencil(pencils, hits, at);
+    while (at.read < at.order.size()) {
+      clock(pencils, hits, at);
+    }
+    sent_ = std::move(at.order);
+    const auto now = unit_.counters();
+    for (std::size_t k = 0; k < now.size(); ++k) {  // they wrap at 2^32
+      counters_[k] += static_cast<std::uint32_t>(now[k] - last_counters_[k]);
+    }
+    last_counters_ = now;
+    return hits;
+  }
+
+  [[nodiscard]] Counters counters() const override { return counters_; }
+  [[nodiscard]] std::uint64_t simulated_clocks() const override { return clocks_; }
+  [[nodiscard]] std::uint64_t skipped_pencils() const override { return skipped_pencils_; }
+  [[nodiscard]] Unit& unit() noexcept { return unit_; }
+  /// The pencils of the last trace() that were not skipped, by index.
+  [[nodiscard]] const std::vector<std::size_t>& sent() const noexcept { return sent_; }
+
+ private:
+  static constexpr std::uint64_t kHangClocks = 100'000'000;
+
+  /// A pencil that is being written, runs or is read.
+  struct Loaded {
+    FixedPencil words;
+    FixedPencilMemory<Fp24> memory;
+  };
+  /// How many pencils have got how far. Pencil k of `order` uses bank k modulo kPencilBanks.
+  struct Progress {
+    std::size_t encoded = 0;         ///< of all pencils
+    std::vector<std::size_t> order;  ///< those of them that may hit something
+    std::deque<Loaded> banks;        ///< the last of `order`, from `read` on
+    std::size_t written = 0;
+    std::size_t word = 0;  ///< next one of pencil `written`
+    std::size_t started = 0;
+    std::size_t finished = 0;
+    std::size_t read = 0;
+    std::size_t ray = 0;     ///< next one asked for of pencil `read`
+    std::uint64_t idle = 0;  ///< clocks since a pencil finished
+  };
+
+  static void check(const char* what, std::size_t size, std::size_t depth) {
+    if (size > depth) {
+      throw std::runtime_error(std::to_string(size) + " " + what + " " + std::to_string(depth));
+    }
+  }
+
+  void clock(std::span<const Pencil> pencils, std::vector<std::vector<Hit>>& hits, Progress& at) {
+    const std::size_t startable = at.written;
+    if (at.written < at.order.size() && at.written - at.read < kPencilBanks) {
+      write_word(pencils, hits, at);
+    }
+    const bool reading = at.read < at.finished;
+    const std::size_t index = reading ? at.order[at.read] : 0;
+    const std::size_t rays = reading ? pencils[index].directions.size() : 0;
+    const auto place = [&](std::size_t ray) {
+      const auto columns = static_cast<std::size_t>(pencils[index].columns);
+      return ray / columns * kMaxColumns + ray % columns;
+    };
+    if (at.ray < rays) {
+      unit_.ask(at.read % kPencilBanks, place(at.ray));
+    }
+    const bool start = at.started < startable;
+    unit_.clock(start, at.started % kPencilBanks);
+    ++clocks_;
+    at.started += start ? 1 : 0;
+    ++at.idle;
+    while (at.finished < at.started && (unit_.busy() >> (at.finished % kPencilBanks) & 1U) == 0) {
+      ++at.finished;
+      at.idle = 0;
+    }
+    if (at.idle == kHangClocks) {
+      throw std::runtime_error("a pencil did not end within 100 million clocks");
+    }
+    if (reading) {
+      ++at.ray;
+      if (at.ray >= kMemoryStages) {
+        const std::size_t ray = at.ray - kMemoryStages;
+        hits[index].push_back(decode_fixed(unit_.result(), at.banks.front().words, place(ray)));
+      }
+      if (at.ray == rays + kMemoryStages - 1) {
+        at.banks.pop_front();
+        at.ray = 0;
+        ++at.read;
+      }
+    }
+  }
+
+  /// Encodes pencils up to the next one that meets a sphere of the root range; the others hit nothing.
+  void next_pencil(std::span<const Pencil> pencils, std::vector<std::vector<Hit>>& hits, Progress& at) {
+    while (at.encoded < pencils.size()) {
+      const std::size_t index = at.encoded++;
+      Loaded loaded{encode_fixed(pencils[index], vertex_error_), {}};
+      loaded.memory = {loaded.words.pencil, loaded.words.limits, loaded.words.planes, loaded.words.rays};
+      if (std::any_of(root_.begin(), root_.end(),
+                      [&](const NodeWord& node) { return meets(loaded.memory, node); })) {
+        at.order.push_back(index);
+        at.banks.push_back(std::move(loaded));
+        return;
+      }
+      hits[index].resize(pencils[index].directions.size());
+      ++skipped_pencils_;
+    }
+  }
+
+  void write_word(std::span<const Pencil> pencils, std::vector<std::vector<Hit>>& hits, Progress& at) {
+    const FixedPencilMemory<Fp24>& memory = at.banks.back().memory;
+    unit_.write_pencil_word(memory, at.written % kPencilBanks, at.word);
+    ++at.word;
+    if (at.word == pencil_words(memory)) {
+      at.word = 0;
+      ++at.written;
+      next_pencil(pencils, hits, at);
+    }
+  }
+
+  DeviceOptions options_;
+  Unit unit_;
+  double vertex_error_ = 0;
+  std::vector<NodeWord> root_;  ///< nodes of the root range
+  std::uint64_t skipped_pencils_ = 0;
+  std::vector<std::size_t> sent_;
+  Counters counters_{};
+  decltype(std::declval<Unit>().counters()) last_counters_{};
+  std::uint64_t clocks_ = 0;
+};
+
+}  // namespace raplas

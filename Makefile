@@ -6,15 +6,15 @@ SHELL := /bin/bash
 BUILD ?= build
 JOBS ?= $(shell nproc)
 SCENE ?= scenes/cornell_teapot.json
-PROFILE ?= paper
+PROFILE ?= raplas
 SIZE ?= 128
 UNIT ?=
 # the README's figures are those of the default picture
-RENDER_JSON = $(BUILD)/$(if $(filter scenes/cornell_teapot.json-paper-128,$(SCENE)-$(PROFILE)-$(SIZE)),figures,render)/render.json
+RENDER_JSON = $(BUILD)/$(if $(filter scenes/cornell_teapot.json-raplas-128,$(SCENE)-$(PROFILE)-$(SIZE)),figures,render)/render.json
 PRIM ?= generic
 SIM ?= verilator
 
-.PHONY: help setup configure build render model sim test lint netlist prove mutation figures trace waves scenes soak clean
+.PHONY: help setup configure build render model sim test lint netlist prove mutation skip figures trace waves scenes soak clean
 
 help: ## this list
 	@echo "RAPLAS: ray tracing by planes and bounding spheres, in VHDL, a golden model, and a host"
@@ -68,12 +68,26 @@ prove: configure ## the proofs over all inputs, then the largest errors that lon
 mutation: configure ## mutants of the synthesized netlists that the benches notice: of UNIT, or of all
 	formal/mutation.py --check --build $(BUILD) --jobs $(JOBS) $(addprefix --unit ,$(UNIT))
 
+SKIP = $(BUILD)/host/raplas skip
+skip: build scenes ## what profile raplas skips, of four scenes, and how that grows with the mesh: tables and heat maps
+	@mkdir -p $(BUILD)/figures
+	$(SKIP) scenes/cornell.json --name cornell -o $(BUILD)/skip/cornell --json $(BUILD)/figures/skip.cornell.json
+	$(SKIP) scenes/cornell_teapot.json --name teapot -o $(BUILD)/skip/teapot --json $(BUILD)/figures/skip.teapot.json
+	$(SKIP) $(BUILD)/scenes/bunny_69k.obj --name bunny_floor --rtl 240 -o $(BUILD)/skip/bunny_floor \
+	  --json $(BUILD)/figures/skip.bunny_floor.json
+	$(SKIP) $(BUILD)/scenes/dragon_871k.ply --name dragon_floor -o $(BUILD)/skip/dragon_floor \
+	  --json $(BUILD)/figures/skip.dragon_floor.json
+	@for mesh in bunny_3k.ply bunny_69k.obj dragon_11k.ply dragon_47k.ply dragon_202k.ply dragon_871k.ply; do \
+	  $(SKIP) $(BUILD)/scenes/$$mesh --width 512 --height 512 --sample 32 -o $(BUILD)/skip/$${mesh%.*} \
+	    --json $(BUILD)/figures/skip.$${mesh%.*}.json; done
+
 figures: ## makes what is missing and collects build/figures.json and the tables of README and numerics
 	@[ -f $(BUILD)/figures/render.json ] || $(MAKE) render
 	@[ -f $(BUILD)/figures/netlist.json ] || $(MAKE) netlist
 	@[ -f $(BUILD)/figures/stages.fp_add.json ] || $(MAKE) sim
 	@[ -f $(BUILD)/figures/proof.json ] && [ -f $(BUILD)/figures/radius.json ] || $(MAKE) prove
 	@[ -f $(BUILD)/figures/mutation.json ] || $(MAKE) mutation
+	@[ -f $(BUILD)/figures/skip.dragon_871k.json ] || $(MAKE) skip
 	@scripts/figures.py --build $(BUILD)
 
 trace: configure ## traces of UNIT's bench and of its model, compared: build/traces
@@ -97,7 +111,10 @@ waves: configure ## all signals of UNIT's bench for GTKWave: build/waves/UNIT.gh
 scenes: setup ## fetches the Stanford bunny and dragon and a small bunny: build/scenes
 	@scripts/fetch_scenes.sh $(BUILD)/scenes
 
-soak: build scenes ## real meshes on all devices: small pictures of bunny and dragon, RTL against model
+soak: build scenes ## real meshes on all devices, RTL against model; 100000 random pencils through raplas_unit
+	@ninja -C $(BUILD) -j $(JOBS) raplas_unit.generic.verilator
+	RAPLAS_CASES=100000 RAPLAS_FIGURES=$(BUILD)/figures/unit_random.json $(BUILD)/tb/raplas_unit.generic.verilator \
+	  --gtest_filter='*.FindsTheHitsOfTheDefinition'
 	@for mesh in bunny_3k bunny_69k dragon_47k; do \
 	  $(MAKE) --no-print-directory render SCENE=$$(echo $(BUILD)/scenes/$$mesh.*) PROFILE=raplas SIZE=64; done
 

@@ -18,9 +18,10 @@ class Miter:
     """A unit beside its definition, prepared when first asked for."""
 
     def __init__(self, theorem, folder, rtl, unit, latency, prim="generic", generics=(), parameters=(), stubs=(),
-                 source=None):
+                 source=None, products="mul_rows"):
         self.theorem, self.folder, self.latency = theorem, folder / theorem, latency
         self._arguments = unit, prim, generics, parameters, stubs, SOURCES / f"{source or unit}.sv", rtl
+        self._products = SOURCES / f"{products}.v"
         self._aig = Once(self._prepare)
 
     def _prepare(self):
@@ -37,7 +38,7 @@ class Miter:
         commands += [f"chparam -set {name} {value} miter" for name, value in parameters]
         # the registers lose their initial values: the pipeline may hold anything
         commands += ["hierarchy -check -top miter", "proc", "flatten", "setattr -unset init w:*", "opt -full",
-                     f"techmap -map {SOURCES / 'mul_rows.v'}", "opt -full", "techmap", "opt -fast", "dffunmap",
+                     f"techmap -map {self._products}", "opt -full", "techmap", "opt -fast", "dffunmap",
                      "aigmap", "opt_clean", f"write_aiger -symbols {self.folder / 'sequential.aig'}"]
         run("yosys", "-q", "-p", "; ".join(commands))
         abc(f"read_aiger {self.folder / 'sequential.aig'}; frames -F {self.latency + 1}; comb; "
@@ -105,6 +106,7 @@ def case(miter, distance, swap, quick=False):
 
 
 ADDERS = [(guard, subtract, prim) for guard in (2, 1, 0) for subtract in (False, True) for prim in ("generic", "xc4v")]
+MODES = (0, 1, 2)  # of dsp_plane_test
 
 
 def cases(work, rtl):
@@ -115,6 +117,10 @@ def cases(work, rtl):
     for prim in ("generic", "xc4v"):
         found.append(Miter(f"fp_mul.{prim}", work, rtl, "fp_mul", 3, prim).case("all", prim == "generic"))
         found.append(Miter(f"fp_product.{prim}", work, rtl, "fp_product", 2, prim).case("all", prim == "generic"))
+        for mode in MODES:
+            found.append(Miter(f"dsp_plane_test.mode{mode}.{prim}", work, rtl, "dsp_plane_test", 6, prim,
+                               (f"MODE={mode}",), (("MODE", mode),), products="mul_pair").case("all", mode == 0))
+    found.append(Miter("depth_code", work, rtl, "depth_code", 2).case("all", True))
     found.append(Miter("fp_add.cases_are_all", work, rtl, "fp_add", 0, source="fp_add_cases").case("all", True))
     cut = Miter("fp_add.cut", work, rtl, "fp_add", 0, source="fp_add_cut")
     found += [case(cut, distance, swap) for distance, swap in DISTANCES]
@@ -133,6 +139,8 @@ EXPECTED = {
     "fp_add.cases_are_all": 1,
     "fp_add.cut": 255,
     **{f"{unit}.{prim}": 1 for unit in ("fp_mul", "fp_product") for prim in ("generic", "xc4v")},
+    **{f"dsp_plane_test.mode{mode}.{prim}": 1 for mode in MODES for prim in ("generic", "xc4v")},
+    "depth_code": 1,
     "nearest_hit": 505,
     "plane_sphere_tester.compare": 1,
     "ray_triangle.hit_rule": 1,

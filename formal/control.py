@@ -1,4 +1,4 @@
-"""Control theorems: queues, selector, pair_issue, traversal, decoder, result memory.
+"""Control theorems: queues, selectors, pair_issue, walks, pencils, decoder, result memory, counters.
 
 The properties of formal/control/NAME.sv are put inside the exported unit, before its endmodule, as a
 SystemVerilog bind would do: they see its ports and, for the invariants, its registers. Yosys' `sat`
@@ -38,10 +38,16 @@ class Model:
 
 SMALL = {"STACK_DEPTH": 8, "STACK_DEPTH_LOG2": 3, "STACK_WATERMARK": 2, "LEAF_FIFO_DEPTH": 2,
          "LEAF_FIFO_DEPTH_LOG2": 1, "ID_BITS": 5, "COUNT_BITS": 3}
+SMALL_STACK = {name: SMALL[name] for name in ("STACK_DEPTH", "STACK_DEPTH_LOG2", "STACK_WATERMARK")}
 FEW_RAYS = {"LINE_BITS": 2, "MAX_ROWS": 4, "MAX_COLUMNS": 4}
 WALK = {"unit": "traversal", "properties": ("traversal",)}
 STACK = {"unit": "traversal", "properties": ("traversal", "traversal_stack")}
 RANGE = {"unit": "traversal", "properties": ("traversal", "traversal_range")}
+TREE_SMALL = {"STACK_DEPTH": 8, "STACK_DEPTH_LOG2": 3, "STACK_WATERMARK": 2, "TRIANGLE_FIFO_DEPTH_LOG2": 1,
+              "ID_BITS": 5, "COUNT_BITS": 3, "MAX_ROWS": 2, "MAX_COLUMNS": 5, "LINE_BITS": 1, "DEPTH_BITS": 2}
+TREE_WALK = {"unit": "tree_walk", "properties": ("tree_walk",)}
+TREE_STACK = {"unit": "tree_walk", "properties": ("tree_walk", "tree_walk_stack")}
+TREE_RANGE = {"unit": "tree_walk", "properties": ("tree_walk", "tree_walk_range")}
 HITS = {"unit": "result_memory", "unseen": ("best_o", "host_data_o")}
 
 
@@ -70,10 +76,26 @@ MODELS = (
     Model("control.stack", "real", **STACK),
     Model("control.range", "small", **RANGE, constants=SMALL, quick=True, cover=14),
     Model("control.range", "real", **RANGE),
+    Model("control.tree_walk", "small", **TREE_WALK, constants=TREE_SMALL, quick=True, cover=12),
+    Model("control.tree_walk", "real", **TREE_WALK),
+    Model("control.tree_stack", "small", **TREE_STACK, constants=TREE_SMALL, quick=True, cover=16),
+    Model("control.tree_stack", "real", **TREE_STACK, unseen=("address_o",)),
+    Model("control.tree_range", "small", **TREE_RANGE, constants=TREE_SMALL, quick=True, cover=12),
     Model("control.ram", "8x2", "ram", {"WIDTH": 2, "ADDRESS_BITS": 3}, quick=True, cover=6),
     Model("control.result_memory", "small", **HITS, constants=FEW_RAYS, quick=True, cover=12),
     Model("control.result_memory", "real", **HITS),
     Model("control.event_counters", "all", "event_counters", cover=3),
+    Model("control.unit_counters", "all", "unit_counters", {"BITS": 32}, cover=3),
+    Model("control.pencil_control", "all", "pencil_control", quick=True, cover=20),
+    Model("control.column_selector", "all", "column_selector", quick=True, cover=10),
+    Model("control.row_queue", "small", "row_selector", properties=("row_queue",), constants={"ROW_FIFO_DEPTH_LOG2": 3},
+          depth=18, cover=18, quick=True),
+    Model("control.row_queue", "real", "row_selector", properties=("row_queue",)),
+    Model("control.triangle_room", "all", "tree_walk", properties=("triangle_room",), constants=SMALL_STACK,
+          unseen=("address_o", "rows_o", "columns_o", "last_o", "stack_level_o")),
+    Model("control.hit_room", "all", "hit_queue", properties=("hit_room",), unseen=(
+        "best_bank_o", "best_ray_o", "write_o", "write_bank_o", "ray_o", "result_o", "first_o", "bound_o", "done_o",
+        "done_bank_o")),
 )
 
 
@@ -205,5 +227,7 @@ def cases(work, rtl):
 
 
 EXPECTED = {"control.fifo": 6, "control.selector": 3, "control.pair_issue": 2, "control.decoder": 5, "control.walk": 5,
-            "control.stack": 6, "control.range": 7, "control.ram": 2, "control.result_memory": 4,
-            "control.event_counters": 2}
+            "control.stack": 6, "control.range": 7, "control.tree_walk": 6, "control.tree_stack": 7,
+            "control.tree_range": 8, "control.ram": 2, "control.result_memory": 4,
+            "control.event_counters": 2, "control.unit_counters": 2, "control.pencil_control": 2,
+            "control.column_selector": 3, "control.row_queue": 4, "control.triangle_room": 1, "control.hit_room": 1}

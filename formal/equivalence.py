@@ -26,28 +26,43 @@ from gate_netlist import FLIP_FLOPS, Endless, Netlist, View
 from mutants import modules
 
 EQUIVALENT, UNDECIDED = "equivalent", "undecided"
-VERSION = 1    # raise it when verdicts may change: those that are kept are then made again
+VERSION = 2    # raise it when verdicts may change: those that are kept are then made again
 SECONDS = 120  # for each run of ABC
 CONFLICTS = 20000  # of plain SAT, before ABC's iprove
 MULTIPLIERS = 3  # as gates; with more of them ABC doesn't come to an end
 
-# unit -> output -> the output that says whether it means something
+# unit -> output -> the output that says whether it means something, or several, of which one must be 1
 MEANS = {
     "fifo": {"data_o": "valid_o"},
     "plane_sphere_subunit": {"row_flags_o": "valid_o", "column_flags_o": "valid_o", "tag_o": "valid_o"},
     "ray_triangle": {"ray_o": "valid_o", "result_o": "valid_o"},
+    "hit_queue": {"write_bank_o": "write_o", "ray_o": "write_o", "result_o": "write_o", "bound_o": "write_o",
+                  "done_bank_o": "done_o"},
     "plane_sphere_decoder": {"row_mask_o": "decided_o", "column_mask_o": "decided_o"},
     "selector": {"ray_o": "valid_o", "triangle_o": "valid_o"},
     "traversal": {"address_o": "request_o", "set_o": "request_o", "first_o": "request_o", "last_o": "request_o"},
+    "tree_walk": {"vertex_o": "request_o", "address_o": "request_o", "rows_o": "request_o", "columns_o": "request_o",
+                  "last_o": "request_o"},
+    "triangle_lines": {"rows_o": "valid_o", "columns_o": "valid_o", "z_o": "valid_o", "triangle_o": "valid_o"},
+    "row_selector": {"bank_o": "read_o", "row_o": "read_o", "row_word_o": "row_valid_o"},
+    "column_selector": {"ray_o": "issue_o", "triangle_o": "issue_o", "z_o": "issue_o",
+                        "bank_o": ("issue_o", "last_o")},
+    "pencil_control": {"line_o": "load_o"},
     "intersection_unit": {"sphere_o": "request_o", "set_o": "request_o", "row_mask_o": "decided_o",
                           "column_mask_o": "decided_o", "stored_ray_o": "pair_done_o",
                           "stored_result_o": "pair_done_o"},
+    "raplas_unit": {"vertex_o": "request_o", "object_o": "request_o", "found_triangle_o": "triangle_found_o",
+                    "found_rows_o": "triangle_found_o", "found_columns_o": "triangle_found_o",
+                    "found_z_o": "triangle_found_o", "ray_o": "issue_o", "triangle_o": "issue_o",
+                    "stored_ray_o": "stored_o", "stored_result_o": "stored_o"},
 }
 
 # unit -> input -> least and greatest value
 RANGES = {
     "plane_sphere_decoder": {"rows_i": (1, 16), "columns_i": (1, 16)},
     "traversal": {"root_count_i": (0, 1 << 20), "push_count_i": (1, 127)},
+    "tree_walk": {"root_count_i": (1, 127), "triangles_i": (0, 32)},
+    "pencil_control": {"rows_i": (1, 16), "columns_i": (1, 16)},
 }
 
 
@@ -122,7 +137,8 @@ class Prover:
                 continue
             bad = aig.any(aig.differ(unit(bit), mutant(bit)) for bit in port["bits"])
             if name in self.means:
-                bad = aig.both(bad, unit(self.netlist.ports[self.means[name]]["bits"][0]))
+                valid = self.means[name] if isinstance(self.means[name], tuple) else (self.means[name],)
+                bad = aig.both(bad, aig.any(unit(self.netlist.ports[one]["bits"][0]) for one in valid))
             different.append(bad)
         return aig.any(different)
 
@@ -219,7 +235,7 @@ class Prover:
     def _pipeline(self, mutant, gates, path):
         aig = Aig()
         a, b = (View(self.netlist, number, aig, gates, unrolled=True) for number in (0, mutant))
-        return self._solve(aig, self._outputs(a, b), path, "pipeline")
+        return self._solve(aig, aig.either(self._outputs(a, b), self._parts(a, b)), path, "pipeline")
 
     def _reset(self, mutant, gates, path):
         aig = Aig()

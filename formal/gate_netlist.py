@@ -108,7 +108,7 @@ class View:
         if kind == "$mul":
             return self._product(cell, values)[place]
         if cell in self.netlist.parts:
-            return aig.input(f"{cell}.{port}.{place}")
+            return aig.input(f"{cell}.{port}.{place}@{-age}")  # in the clocks before: something else
         a, b, s = (values + [None, None])[:3]
         return {"$_AND_": lambda: aig.both(a, b), "$_OR_": lambda: aig.either(a, b),
                 "$_XOR_": lambda: aig.differ(a, b), "$_NOT_": lambda: a ^ 1, "$_BUF_": lambda: a,

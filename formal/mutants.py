@@ -57,17 +57,33 @@ UNITS = {
     "fp_add_paper": Bench("fp_add", ARITHMETIC),
     "plane_sphere_tester": Bench("plane_sphere_tester", ARITHMETIC),
     "plane_sphere_subunit": Bench("plane_sphere_subunit", ARITHMETIC, level=WORDS),
+    "dsp_plane_test_0": Bench("dsp_plane_test", ARITHMETIC),
+    "depth_code": Bench("depth_code", ARITHMETIC),
+    "fixed_testers": Bench("fixed_testers", ARITHMETIC, level=WORDS, parts=("dsp_plane_test", "depth_code")),
     "nearest_hit": Bench("nearest_hit", ARITHMETIC),
+    "depth_quotient": Bench("depth_quotient", ARITHMETIC),
+    "ray_solver": Bench("ray_solver", ARITHMETIC, level=WORDS),
     "ray_triangle": Bench("ray_triangle", ARITHMETIC, level=WORDS),
     "fifo": Bench("fifo", CONTROL),
+    "hit_queue": Bench("hit_queue", CONTROL, parts=("fifo", "pair_issue", "nearest_hit")),
     "plane_sphere_decoder": Bench("plane_sphere_decoder", CONTROL),
     "traversal": Bench("traversal", CONTROL),
+    "tree_walk": Bench("tree_walk", CONTROL),
     "selector": Bench("selector", CONTROL),
     "pair_issue": Bench("pair_issue", CONTROL),
     "result_memory": Bench("result_memory", CONTROL),
+    "triangle_lines": Bench("triangle_lines", CONTROL),
+    "ray_bounds": Bench("ray_bounds", CONTROL),
+    "row_selector": Bench("row_selector", CONTROL),
+    "column_selector": Bench("column_selector", CONTROL),
+    "pencil_control": Bench("pencil_control", CONTROL, parts=("fifo",)),
+    "unit_counters_12": Bench("unit_counters", CONTROL),
     "intersection_unit": Bench("intersection_unit", CONTROL, level=WORDS, parts=(
         "plane_sphere_subunit", "plane_sphere_decoder", "traversal", "selector", "pair_issue", "ray_triangle", "fifo",
         "result_memory")),
+    "raplas_unit": Bench("raplas_unit", CONTROL, level=WORDS, parts=(
+        "pencil_control", "unit_counters", "tree_walk", "fixed_testers", "triangle_lines", "fifo", "row_selector",
+        "column_selector", "ray_bounds", "ray_solver", "depth_quotient", "hit_queue", "result_memory")),
 }
 
 SHARED = ("hierarchy -check -top {unit}; proc; {keep}flatten; opt; wreduce; peepopt; opt_clean; opt -full; "
@@ -119,7 +135,7 @@ def with_port(command, number, width):
 def make(bench, export, out):
     out.mkdir(parents=True, exist_ok=True)
     netlist, everything, raw = out / "netlist.il", out / "netlist.json", out / "list.txt"
-    yosys(f"read_verilog {export / bench.unit}.v; {synthesis(bench)}; rename -enumerate -pattern n%; "
+    yosys(f"read_verilog {export / bench.unit}.v; {synthesis(bench)}; rename -enumerate -pattern g%; "
           f"write_ilang {netlist}; write_json {everything}")
     allowed = sites(everything, bench.unit)
     # Yosys 0.23 does not end when asked for more than there are: each site has at least three mutants

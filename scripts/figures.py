@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Collect measured figures, and fill the tables of README.md and docs/numerics.md with them.
+"""Collect measured figures, and fill the tables of README.md, docs/numerics.md and docs/skipping.md with them.
 
 usage: figures.py [--require NAME ...] [--check] [--build DIR] [--page FILE ...]
 
 Merges DIR/figures/*.json (DIR: build) into DIR/figures.json, {"name": {"value", "unit", "command"}},
-sorted. A figure may come from several files when all give the same value and unit. In each FILE (default: both
+sorted. A figure may come from several files when all give the same value and unit. In each FILE (default: all
 pages) the lines between "<!-- figures:TABLE -->" and "<!-- /figures -->"
 become the table TABLE of TABLES below. A figure that was not measured shows as a dash.
 
@@ -22,7 +22,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 MARK = re.compile(r"(?ms)^(<!-- figures:(\w+) -->\n)(.*?)^(<!-- /figures -->)$")
 DASH = "-"
-PAGES = (ROOT / "README.md", ROOT / "docs/numerics.md")
+PAGES = (ROOT / "README.md", ROOT / "docs/numerics.md", ROOT / "docs/skipping.md")
 
 # What the paper reports for the XC4VSX35 with ISE 8.2.
 PAPER = {
@@ -36,7 +36,14 @@ PAPER = {
 # the figure that has the key in its place; rows may be such a kind too: all keys that there are. The kinds
 # "value", "unit" and "command" show that part of the figure `key` itself; optional rows vanish without it.
 UNITS = ("fp_add", "fp_mul", "plane_sphere_tester", "plane_sphere_subunit", "nearest_hit", "ray_triangle",
-         "intersection_unit")
+         "intersection_unit", "fixed_testers", "ray_solver", "hit_queue", "raplas_unit")
+SKIP_SCENES = (("Cornell box", "cornell"), ("Cornell box with teapot", "teapot"), ("bunny, floor", "bunny_floor"),
+               ("dragon, floor", "dragon_floor"))
+SKIP_STEPS = (("brute force", "brute"), ("conventional, ray by ray", "conventional"), ("paper: flat list, 4x4", "paper"),
+              ("flat list, 16x16", "flat"), ("+ tree", "tree"), ("+ inherited masks", "inherited"),
+              ("+ behind", "behind"), ("+ nearest first", "nearest"), ("+ hidden", "hidden"),
+              ("+ rectangles", "rectangles"), ("+ ended", "ended"), ("the clocked unit", "clocked"))
+TESTS = (("spheres", "sphere_tests_per_ray"), ("vertices", "vertex_tests_per_ray"), ("pairs", "pairs_per_ray"))
 ONE_FIGURE = (("value", "value"), ("unit", "unit"), ("command", "command"))
 TABLES = {
     "hardware": {
@@ -102,6 +109,57 @@ TABLES = {
                  ("`v'`", "v"), ("`u' + v'`", "uv")),
         "optional": (),
     },
+    "skip": {
+        "head": "scene, pencils",
+        "columns": (("rays/clock", "skip.*.rays_per_clock"), ("spheres/ray", "skip.*.sphere_tests_per_ray"),
+                    ("vertices/ray", "skip.*.vertex_tests_per_ray"), ("pairs/ray", "skip.*.pairs_per_ray"),
+                    ("busy, %", "skip.*.busy_percent"), ("paper: rays/clock", "skip_paper.*.rays_per_clock"),
+                    ("paper: spheres/ray", "skip_paper.*.sphere_tests_per_ray"),
+                    ("paper: pairs/ray", "skip_paper.*.pairs_per_ray"), ("hits changed", "skip.*.different")),
+        "rows": tuple((f"{text}, {kind}", f"{key}.{kind}") for text, key in SKIP_SCENES
+                      for kind in ("camera", "shadow")),
+        "optional": (),
+    },
+    "skip_busy": {
+        "head": "scene, pencils",
+        "columns": (("either, %", "skip.*.busy_percent"), ("plane testers, %", "skip.*.testers_busy_percent"),
+                    ("ray-triangle unit, %", "skip.*.pairs_busy_percent"),
+                    ("paper: either, %", "skip_paper.*.busy_percent"),
+                    ("paper: plane testers, %", "skip_paper.*.testers_busy_percent"),
+                    ("paper: ray-triangle unit, %", "skip_paper.*.pairs_busy_percent"),
+                    ("pencils not sent, %", "skip.*.not_sent_percent"),
+                    ("results compared", "skip.*.compared"), ("different", "skip.*.different")),
+        "rows": tuple((f"{text}, {kind}", f"{key}.{kind}") for text, key in SKIP_SCENES
+                      for kind in ("camera", "shadow")),
+        "optional": (),
+    },
+    "skip_rtl": {
+        "head": "model against RTL, bunny, floor",
+        "columns": ONE_FIGURE,
+        "rows": (
+            ("pencils in one stream, camera and shadow in turn", "skip.rtl.pencils_checked"),
+            ("rays", "skip.rtl.rays_checked"),
+            ("clocks", "skip.rtl.clocks_checked"),
+            ("rays, counters and clocks that differ", "skip.rtl.differences"),
+        ),
+        "optional": (),
+    },
+    "growth": {
+        "head": "mesh, 512x512",
+        "columns": (("triangles", "skip.*.triangles"),
+                    *((f"{kind}: {text}", f"skip.*.{kind}.{key}") for kind in ("camera", "shadow")
+                      for text, key in (("rays/clock", "rays_per_clock"), *TESTS))),
+        "rows": tuple((f"`{mesh}`", mesh) for mesh in ("bunny_3k", "dragon_11k", "dragon_47k", "bunny_69k",
+                                                      "dragon_202k", "dragon_871k")),
+        "optional": (),
+    },
+    **{f"skip_{scene}": {
+        "head": "tests and clocks for each ray",
+        "columns": tuple((f"{kind}: {text}", f"skip_step.{scene}.{kind}.*.{key}") for kind in ("camera", "shadow")
+                         for text, key in (*TESTS, ("clocks", "clocks_per_ray"))),
+        "rows": SKIP_STEPS,
+        "optional": (),
+    } for _, scene in SKIP_SCENES},
     "mutation": {
         "head": "unit",
         "columns": (("mutants", "mutation.*.mutants"), ("killed", "mutation.*.killed"),

@@ -3,8 +3,9 @@
 
 usage: netlist.py [--unit U ...] [--count] [--check] [--build DIR] [--fresh]
 
-Each unit is exported with prim xc4v and default generics into DIR/netlist/U/ (DIR: build), and
-synthesised by yosys synth_xilinx -family xc4v. The figures go into DIR/figures/netlist.json:
+Each unit is exported with prim xc4v and default generics (U_fabric: EXPONENT_DSP = false) into
+DIR/netlist/U/ (DIR: build), and synthesised by yosys synth_xilinx -family xc4v. The figures go into
+DIR/figures/netlist.json:
   dsp48.U             DSP48 cells: the ones instantiated in rtl/prim/xc4v
   lut.U               LUT1 to LUT4, and INV, Yosys' name for an inverting LUT1
   lut_ram.U           LUTs used as memory
@@ -14,7 +15,7 @@ synthesised by yosys synth_xilinx -family xc4v. The figures go into DIR/figures/
                       only; what ISE's MAP reports is higher
 Yosys infers no SRL16 for this family, so every delay counts in flip-flops.
 
---unit    only these; without it all; intersection_unit takes Yosys some minutes
+--unit    only these; without it all; intersection_unit and raplas_unit take Yosys some minutes
 --count   flattens only: DSP48 and latches of all units in seconds, no figures written
 --check   exits 1 unless the DSP48 counts are those of the documents
 --fresh   ignores the results kept for an unchanged export
@@ -38,10 +39,21 @@ DSP48 = {
     "fp_mul": 2,
     "plane_sphere_tester": 12,
     "plane_sphere_subunit": 96,
+    "fixed_testers": 136,
     "nearest_hit": 4,
+    "depth_quotient": 1,
+    "ray_solver": 66,
     "ray_triangle": 70,
+    "hit_queue": 4,
+    "fp_add_fabric": 1,
+    "fp_mul_fabric": 1,
+    "ray_solver_fabric": 33,
+    "hit_queue_fabric": 2,
     "intersection_unit": 166,
+    "raplas_unit": 172,
 }
+FABRIC = ("EXPONENT_DSP=false",)  # exponents in fabric
+VARIANTS = {f"{unit}_fabric": (unit, FABRIC) for unit in ("fp_add", "fp_mul", "ray_solver", "hit_queue")}
 PAPER = {  # slices and DSP48 that ISE 8.2 reported
     "plane_sphere_subunit": (8248, 96),
     "ray_triangle": (5282, 70),
@@ -63,10 +75,11 @@ def fail(message):
     sys.exit(f"netlist: {message}")
 
 
-def export(unit, folder):
+def export(unit, folder, generics):
     """The unit's Verilog, with DSP48 as black boxes."""
     command = [sys.executable, str(ROOT / "scripts/export_verilog.py"), "--unit", unit, "--prim", "xc4v"]
     command += ["--sources", str(ROOT / "rtl/sources.txt"), "--out", str(folder)]
+    command += [f"--generic={generic}" for generic in generics]
     run = subprocess.run(command, capture_output=True, text=True)
     if run.returncode:
         fail(f"{unit}: the export failed:\n{run.stdout}{run.stderr}")
@@ -155,11 +168,12 @@ def main():
     counts, results = {}, {}
     for unit in args.unit or DSP48:
         folder = args.build / "netlist" / unit
-        verilog = export(unit, folder)
+        top, generics = VARIANTS.get(unit, (unit, ()))
+        verilog = export(top, folder, generics)
         name, passes = ("count", CELL_TYPES + FLATTENING) if args.count else ("synthesis", SYNTHESIS)
         start = time.monotonic()
         print(f"{unit}: ", end="", flush=True)
-        cells, seconds = cells_of(unit, verilog, passes, folder / f"{name}.json", args.fresh, version)
+        cells, seconds = cells_of(top, verilog, passes, folder / f"{name}.json", args.fresh, version)
         refuse(unit, cells)
         counts[unit] = cells.get("DSP48", 0)
         if not args.count:

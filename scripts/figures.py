@@ -36,7 +36,7 @@ PAPER = {
 # the figure that has the key in its place; rows may be such a kind too: all keys that there are. The kinds
 # "value", "unit" and "command" show that part of the figure `key` itself; optional rows vanish without it.
 UNITS = ("fp_add", "fp_mul", "plane_sphere_tester", "plane_sphere_subunit", "nearest_hit", "ray_triangle",
-         "intersection_unit", "fixed_testers", "ray_solver", "hit_queue", "raplas_unit")
+         "intersection_unit", "fixed_testers", "ray_solver_fabric", "hit_queue_fabric", "raplas_unit")
 SKIP_SCENES = (("Cornell box", "cornell"), ("Cornell box with teapot", "teapot"), ("bunny, floor", "bunny_floor"),
                ("dragon, floor", "dragon_floor"))
 SKIP_STEPS = (("brute force", "brute"), ("conventional, ray by ray", "conventional"), ("paper: flat list, 4x4", "paper"),

@@ -37,10 +37,10 @@ void compare_with_the_walk(Testers testers, std::uint32_t seed) {
     unit.pencil(bank) = pencil;
     ASSERT_NO_FATAL_FAILURE(run(unit, bank));
     ResultMemory<F> results;
-    PencilCounters exact{};
+    EventCounters exact{};
     trace_pencil(scene, pencil, results, exact);
     EXPECT_EQ(unit.results(bank), results);
-    const auto count = [](const PencilCounters& counters, Counter c) {
+    const auto count = [](const EventCounters& counters, Counter c) {
       return counters[static_cast<std::size_t>(c)];
     };
     for (const Counter c : {Counter::spheres_tested, Counter::spheres_skipped, Counter::plane_tests,
@@ -75,7 +75,7 @@ TEST(IntersectionUnit, FindsTheSameHitsInAnyOrderOfTheSpheres) {
         scene.triangles[0];  // a tie: the lower ID must win in any order
     const PencilMemory<F> pencil = scenes.pencil(16, 16);
     ResultMemory<F> results;
-    PencilCounters counters{};
+    EventCounters counters{};
     trace_pencil(scene, pencil, results, counters);
     std::shuffle(scene.spheres.begin(), scene.spheres.end(), random);
     IntersectionUnit<F> unit;

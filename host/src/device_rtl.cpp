@@ -239,8 +239,8 @@ class RtlUnit {
 
   [[nodiscard]] std::uint32_t busy() const { return (*unit_)->busy_o; }
   [[nodiscard]] ResultWord<Fp24> result() const { return unit_->result<Fp24>(); }
-  [[nodiscard]] std::array<std::uint32_t, kNumCounters> counters() const {
-    std::array<std::uint32_t, kNumCounters> counters{};
+  [[nodiscard]] EventCounters counters() const {
+    EventCounters counters{};
     for (std::size_t k = 0; k < counters.size(); ++k) {
       counters[k] = (*unit_)->counters_o[k];
     }

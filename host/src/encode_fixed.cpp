@@ -53,20 +53,20 @@ class SceneEncoder {
   explicit SceneEncoder(const DeviceScene& scene) : scene_(scene) {}
 
   FixedScene run() {
-    words_.nodes.resize(scene_.nodes.size());
-    words_.vertices.reserve(2 * scene_.triangles.size());
+    memory_.nodes.resize(scene_.nodes.size());
+    memory_.vertices.reserve(2 * scene_.triangles.size());
     encode_range(scene_.root_first, scene_.root_count);
     constexpr std::size_t kMaxWords = std::size_t{1} << kIdBits;
-    if (words_.vertices.size() > kMaxWords) {
+    if (memory_.vertices.size() > kMaxWords) {
       throw std::runtime_error(
-          fmt::format("{} vertex words, addresses reach {}", words_.vertices.size(), kMaxWords));
+          fmt::format("{} vertex words, addresses reach {}", memory_.vertices.size(), kMaxWords));
     }
-    words_.triangles.reserve(scene_.triangles.size());
+    memory_.triangles.reserve(scene_.triangles.size());
     for (const Triangle& t : scene_.triangles) {
-      words_.triangles.push_back(encode<Fp24>(t));
+      memory_.triangles.push_back(encode<Fp24>(t));
     }
-    words_.scene = {static_cast<std::uint32_t>(scene_.nodes.size()), scene_.root_count, scene_.root_first};
-    return std::move(words_);
+    memory_.scene = {static_cast<std::uint32_t>(scene_.nodes.size()), scene_.root_count, scene_.root_first};
+    return {std::move(memory_), vertex_error_};
   }
 
  private:
@@ -82,7 +82,7 @@ class SceneEncoder {
 
   void encode_node(std::size_t k) {
     const SphereNode& node = scene_.nodes[k];
-    const std::size_t begin = words_.vertices.size();
+    const std::size_t begin = memory_.vertices.size();
     if (node.leaf) {
       encode_leaf(k);
     } else {
@@ -90,7 +90,7 @@ class SceneEncoder {
     }
     NodeWord word;
     word.leaf = node.leaf;
-    word.count = node.leaf ? static_cast<std::uint32_t>(words_.vertices.size() - begin) : node.count;
+    word.count = node.leaf ? static_cast<std::uint32_t>(memory_.vertices.size() - begin) : node.count;
     word.first = node.leaf ? static_cast<std::uint32_t>(begin) : node.first;
     for (int axis = 0; axis < 3; ++axis) {
       if (!(std::abs(node.centre[axis]) < 1 - kUnit)) {
@@ -99,14 +99,14 @@ class SceneEncoder {
     }
     word.centre = quantised(node.centre);
     std::int64_t farthest = 0;
-    for (std::size_t v = begin; v < words_.vertices.size(); ++v) {
-      farthest = std::max(farthest, squared_distance(words_.vertices[v].point, word.centre));
+    for (std::size_t v = begin; v < memory_.vertices.size(); ++v) {
+      farthest = std::max(farthest, squared_distance(memory_.vertices[v].point, word.centre));
     }
     word.radius = root_up(farthest);
     if (word.radius + kMaxSlack >= 1U << kCoordinateBits) {
       fail(k, "its radius leaves no room for a pencil's slack");
     }
-    words_.nodes[k] = word;
+    memory_.nodes[k] = word;
   }
 
   void encode_leaf(std::size_t k) {
@@ -125,7 +125,7 @@ class SceneEncoder {
     if (strip.size() >= 1U << kCountBits) {
       fail(k, fmt::format("{} vertex words, a leaf holds {}", strip.size(), (1U << kCountBits) - 1));
     }
-    words_.vertices.insert(words_.vertices.end(), strip.begin(), strip.end());
+    memory_.vertices.insert(memory_.vertices.end(), strip.begin(), strip.end());
   }
 
   /// The vertex word of a point of the mesh: the same in all triangles of the leaf.
@@ -145,7 +145,7 @@ class SceneEncoder {
       fail(node, "a corner as stored lies far from its vertex");
     }
     // more than the roundings of `stored` and of the distance
-    words_.vertex_error = std::max(words_.vertex_error, error + 0x1p-48);
+    vertex_error_ = std::max(vertex_error_, error + 0x1p-48);
     return same->vertex;
   }
 
@@ -156,7 +156,8 @@ class SceneEncoder {
   };
 
   const DeviceScene& scene_;
-  FixedScene words_;
+  FixedSceneMemory<Fp24> memory_;
+  double vertex_error_ = 0;
   std::vector<Point> points_;             ///< of one leaf
   std::vector<FixedTriangle> triangles_;  ///< of one leaf
 };

@@ -15,8 +15,6 @@ namespace {
 constexpr double kUnit = 1.0 / (1 << kCoordinateFraction);
 constexpr double kOffsetUnit = kUnit * kUnit;
 
-constexpr std::size_t kRays = std::size_t{kMaxRows} * kMaxColumns;
-
 /// Rays end on the sphere of this radius around zero: more than the corners of triangles as stored.
 constexpr double kReach = 1 + 0x1p-12;
 
@@ -71,7 +69,7 @@ class PencilEncoder {
     encode_depths();
     words_.limits.any_hit = pencil_.any_hit;
     words_.limits.far = far_code();
-    return words_;
+    return {words_, t_scale_};
   }
 
  private:
@@ -93,7 +91,7 @@ class PencilEncoder {
         }
         const std::size_t ray = index(r, c);
         words_.rays[ray] = encode<Fp24>(unit / along, "ray direction");
-        words_.t_scale[ray] = 1 / along;
+        t_scale_[ray] = 1 / along;
         const glm::dvec3 direction = decode(words_.rays[ray]);
         // a hit whose quotient code is below far's has t < far (1 + 2^-8)
         const double last = std::min(last_inside(origin_, direction), pencil_.far * (1 + 0x1p-8));
@@ -176,21 +174,21 @@ class PencilEncoder {
   }
 
   [[nodiscard]] std::uint32_t far_code() const {
-    constexpr std::uint32_t kFarthest = (1U << kDepthBits) - 1;
     const double units = std::floor(pencil_.far / kOffsetUnit);
     if (!(units < std::ldexp(1.0, 39))) {
-      return kFarthest;
+      return kNoBound;
     }
-    return std::min(kFarthest, depth_code(static_cast<std::int64_t>(std::max(0.0, units))));
+    return std::min(kNoBound, depth_code(static_cast<std::int64_t>(std::max(0.0, units))));
   }
 
   const Pencil& pencil_;
   double vertex_error_;
-  glm::dvec3 origin_{0};                        ///< as stored
-  std::array<glm::dvec3, kRays> way_{};         ///< from the origin to a ray's last point
-  std::array<glm::dvec3, kRays> directions_{};  ///< as stored
-  double error_ = 0;                            ///< farthest that a ray gets from one of its planes
-  FixedPencil words_;
+  glm::dvec3 origin_{0};                           ///< as stored
+  std::array<glm::dvec3, kMaxRays> way_{};         ///< from the origin to a ray's last point
+  std::array<glm::dvec3, kMaxRays> directions_{};  ///< as stored
+  double error_ = 0;                               ///< farthest that a ray gets from one of its planes
+  FixedPencilMemory<Fp24> words_;
+  std::array<double, kMaxRays> t_scale_{};
 };
 
 }  // namespace

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "raplas/encode_fixed.hpp"
-#include "raplas/fixed_trace.hpp"
 
 namespace raplas {
 
@@ -23,10 +22,9 @@ namespace raplas {
 
 /// What the unit would do with the pencil and a sphere of the root range: walk on, or drop the sphere.
 [[nodiscard]] inline bool meets(const FixedPencilMemory<Fp24>& pencil, const NodeWord& node) {
-  const auto low_bits = [](std::uint32_t lines) { return (std::uint32_t{1} << lines) - 1; };
   const FixedTest test = test_object(pencil.planes, node.centre, node.radius, pencil.limits.slack);
-  return test.near && test.z < pencil.limits.far && (test.rows_meet & low_bits(pencil.pencil.rows)) != 0 &&
-         (test.columns_meet & low_bits(pencil.pencil.columns)) != 0;
+  return test.near && test.z < pencil.limits.far && (test.rows_meet & first_lines(pencil.pencil.rows)) != 0 &&
+         (test.columns_meet & first_lines(pencil.pencil.columns)) != 0;
 }
 
 /// Streams pencils through a unit: in each clock a word may be written, a bank started and a result read, so
@@ -43,12 +41,13 @@ class FixedDevice final : public IntersectionDevice {
   void load(const DeviceScene& scene) override {
     FixedScene words = encode_fixed(scene);
     vertex_error_ = words.vertex_error;
-    check("spheres, the Sphere Memory holds", words.nodes.size(), options_.sphere_depth);
-    check("vertices, the Vertex Memory holds", words.vertices.size(), 2 * options_.triangle_depth);
-    check("triangles, the Triangle Memory holds", words.triangles.size(), options_.triangle_depth);
-    const auto root = words.nodes.begin() + words.scene.first;
-    root_.assign(root, root + words.scene.count);
-    unit_.load({std::move(words.nodes), std::move(words.vertices), std::move(words.triangles), words.scene});
+    const FixedSceneMemory<Fp24>& memory = words.memory;
+    check("spheres, the Sphere Memory holds", memory.nodes.size(), options_.sphere_depth);
+    check("vertices, the Vertex Memory holds", memory.vertices.size(), 2 * options_.triangle_depth);
+    check("triangles, the Triangle Memory holds", memory.triangles.size(), options_.triangle_depth);
+    const auto root = memory.nodes.begin() + memory.scene.first;
+    root_.assign(root, root + memory.scene.count);
+    unit_.load(std::move(words.memory));
     counters_ = {};
     last_counters_ = {};
     clocks_ = 0;
@@ -63,7 +62,7 @@ class FixedDevice final : public IntersectionDevice {
       clock(pencils, hits, at);
     }
     sent_ = std::move(at.order);
-    const auto now = unit_.counters();
+    const EventCounters now = unit_.counters();
     for (std::size_t k = 0; k < now.size(); ++k) {  // they wrap at 2^32
       counters_[k] += static_cast<std::uint32_t>(now[k] - last_counters_[k]);
     }
@@ -81,16 +80,11 @@ class FixedDevice final : public IntersectionDevice {
  private:
   static constexpr std::uint64_t kHangClocks = 100'000'000;
 
-  /// A pencil that is being written, runs or is read.
-  struct Loaded {
-    FixedPencil words;
-    FixedPencilMemory<Fp24> memory;
-  };
   /// How many pencils have got how far. Pencil k of `order` uses bank k modulo kPencilBanks.
   struct Progress {
     std::size_t encoded = 0;         ///< of all pencils
     std::vector<std::size_t> order;  ///< those of them that may hit something
-    std::deque<Loaded> banks;        ///< the last of `order`, from `read` on
+    std::deque<FixedPencil> banks;   ///< the last of `order`, from `read` on
     std::size_t written = 0;
     std::size_t word = 0;  ///< next one of pencil `written`
     std::size_t started = 0;
@@ -137,7 +131,7 @@ class FixedDevice final : public IntersectionDevice {
       ++at.ray;
       if (at.ray >= kMemoryStages) {
         const std::size_t ray = at.ray - kMemoryStages;
-        hits[index].push_back(decode_fixed(unit_.result(), at.banks.front().words, place(ray)));
+        hits[index].push_back(decode_fixed(unit_.result(), at.banks.front(), place(ray)));
       }
       if (at.ray == rays + kMemoryStages - 1) {
         at.banks.pop_front();
@@ -151,12 +145,11 @@ class FixedDevice final : public IntersectionDevice {
   void next_pencil(std::span<const Pencil> pencils, std::vector<std::vector<Hit>>& hits, Progress& at) {
     while (at.encoded < pencils.size()) {
       const std::size_t index = at.encoded++;
-      Loaded loaded{encode_fixed(pencils[index], vertex_error_), {}};
-      loaded.memory = {loaded.words.pencil, loaded.words.limits, loaded.words.planes, loaded.words.rays};
+      FixedPencil words = encode_fixed(pencils[index], vertex_error_);
       if (std::any_of(root_.begin(), root_.end(),
-                      [&](const NodeWord& node) { return meets(loaded.memory, node); })) {
+                      [&](const NodeWord& node) { return meets(words.memory, node); })) {
         at.order.push_back(index);
-        at.banks.push_back(std::move(loaded));
+        at.banks.push_back(std::move(words));
         return;
       }
       hits[index].resize(pencils[index].directions.size());
@@ -182,7 +175,7 @@ class FixedDevice final : public IntersectionDevice {
   std::uint64_t skipped_pencils_ = 0;
   std::vector<std::size_t> sent_;
   Counters counters_{};
-  decltype(std::declval<Unit>().counters()) last_counters_{};
+  EventCounters last_counters_{};
   std::uint64_t clocks_ = 0;
 };
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <utility>
 
 #include "fixed_device.hpp"
 #include "raplas/raplas_unit.hpp"
@@ -13,8 +14,8 @@ namespace raplas {
 /// The clocked model as FixedDevice drives it.
 class ModelUnit {
  public:
-  void load(const FixedSceneMemory<Fp24>& scene) {
-    scene_ = scene;
+  void load(FixedSceneMemory<Fp24> scene) {
+    scene_ = std::move(scene);
     unit_ = std::make_unique<RaplasUnit<Fp24>>();
     unit_->load(&scene_);
   }
@@ -30,7 +31,7 @@ class ModelUnit {
   }
   [[nodiscard]] std::uint32_t busy() const { return unit_->busy(); }
   [[nodiscard]] ResultWord<Fp24> result() const { return results_.out(); }
-  [[nodiscard]] UnitCounters counters() const { return unit_->counters(); }
+  [[nodiscard]] EventCounters counters() const { return unit_->counters(); }
   [[nodiscard]] const RaplasUnit<Fp24>& model() const { return *unit_; }
 
  private:

@@ -103,22 +103,22 @@ std::vector<Variant> variants(bool any_hit) {
 /// ModelUnit with an eye on what its parts take in each clock.
 class ObservedUnit {
  public:
-  void load(const FixedSceneMemory<Fp24>& scene) { unit_.load(scene); }
+  void load(FixedSceneMemory<Fp24> scene) { unit_.load(std::move(scene)); }
   void write_pencil_word(const FixedPencilMemory<Fp24>& pencil, std::size_t bank, std::size_t word) {
     unit_.write_pencil_word(pencil, bank, word);
   }
   void ask(std::size_t bank, std::size_t ray) { unit_.ask(bank, ray); }
   [[nodiscard]] std::uint32_t busy() const { return unit_.busy(); }
   [[nodiscard]] ResultWord<Fp24> result() const { return unit_.result(); }
-  [[nodiscard]] UnitCounters counters() const { return unit_.counters(); }
+  [[nodiscard]] EventCounters counters() const { return unit_.counters(); }
 
   void clock(bool start, std::size_t bank) {
-    const UnitCounters before = unit_.counters();
+    const EventCounters before = unit_.counters();
     const std::uint32_t busy_before = unit_.busy();
     PencilCost& walked = banks_[unit_.model().walk_bank()];
     PencilCost& paired = banks_[unit_.model().pair_bank()];
     unit_.clock(start, bank);
-    const UnitCounters& now = unit_.model().counters();
+    const EventCounters& now = unit_.model().counters();
     const auto counted = [&](Counter c) {
       return now[static_cast<std::size_t>(c)] != before[static_cast<std::size_t>(c)];
     };
@@ -279,10 +279,7 @@ PaperRun run_paper(const DeviceScene& scene, std::span<const Pencil> pencils, st
 
 SkipSteps run_steps(const DeviceScene& scene, std::span<const Pencil> pencils,
                     std::span<const std::vector<Hit>> expected, const ShowProgress& progress) {
-  FixedScene words = encode_fixed(scene);
-  const double vertex_error = words.vertex_error;
-  const FixedSceneMemory<Fp24> memory{std::move(words.nodes), std::move(words.vertices),
-                                      std::move(words.triangles), words.scene};
+  const FixedScene words = encode_fixed(scene);
   const bool any_hit = !pencils.empty() && pencils.front().any_hit;
   const std::vector<Variant> list = variants(any_hit);
   SkipSteps result;
@@ -290,14 +287,13 @@ SkipSteps run_steps(const DeviceScene& scene, std::span<const Pencil> pencils,
     result.steps.push_back({v.key, v.title, {}});
   }
   for (std::size_t k = 0; k < pencils.size(); ++k) {
-    const FixedPencil pencil = encode_fixed(pencils[k], vertex_error);
-    const FixedPencilMemory<Fp24> bank{pencil.pencil, pencil.limits, pencil.planes, pencil.rays};
+    const FixedPencil pencil = encode_fixed(pencils[k], words.vertex_error);
     FixedTrace<Fp24>::Results first{};
     const auto columns = static_cast<std::size_t>(pencils[k].columns);
     const std::size_t rays = pencils[k].directions.size();
     const auto ray_id = [&](std::size_t ray) { return ray / columns * kMaxColumns + ray % columns; };
     for (std::size_t v = 0; v < list.size(); ++v) {
-      const FixedTrace<Fp24> trace(memory, bank, list[v].skips);
+      const FixedTrace<Fp24> trace(words.memory, pencil.memory, list[v].skips);
       SkipCounts& counts = result.steps[v].counts;
       ++counts.pencils;
       counts.rays += rays;

@@ -101,7 +101,7 @@ class Accountant final : public IntersectionDevice {
       }
     }
     ResultMemory<F> results;
-    PencilCounters counters;
+    EventCounters counters;
     trace_pencil(memory_, words, results, counters);
     std::vector<Hit> hits;
     for (std::size_t r = 0; r < static_cast<std::size_t>(pencil.rows); ++r) {

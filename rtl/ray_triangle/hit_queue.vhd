@@ -9,7 +9,7 @@
 -- end a pencil, always go; done_o comes behind all writes of words before it.
 -- Pairs are stalled when half the queue is full. Four DSP48, or two with
 -- EXPONENT_DSP = false.
--- model: cmodel/include/raplas/nearest_loop.hpp     tests: tb/unit/hit_queue
+-- model: cmodel/include/raplas/hit_queue.hpp     tests: tb/unit/hit_queue
 -- ============================================================================
 library ieee;
 use ieee.std_logic_1164.all;

@@ -102,6 +102,61 @@ struct FixedTest {
   return test;
 }
 
+/// A bit for each row, or each column, of a pencil.
+using LineMask = std::uint32_t;
+
+/// The first `count` lines.
+[[nodiscard]] constexpr LineMask first_lines(std::uint32_t count) noexcept {
+  return (LineMask{1} << count) - 1;
+}
+
+/// A triangle as the plane tests of its vertices leave it: which rays may hit it, and how deep it begins.
+struct CrossedLines {
+  LineMask rows = 0;     ///< row planes that it crosses or comes near
+  LineMask columns = 0;  ///< column planes likewise
+  bool near = false;     ///< not wholly behind
+  std::uint32_t z = 0;   ///< depth code: no point of it is less deep
+};
+
+/// A line is crossed if a vertex meets its plane or the vertices are not all on one side.
+[[nodiscard]] constexpr CrossedLines crossed_lines(const std::array<FixedTest, 3>& vertices) noexcept {
+  const auto& [a, b, c] = vertices;
+  return {
+      a.rows_meet | b.rows_meet | c.rows_meet | (a.rows_above ^ b.rows_above) | (b.rows_above ^ c.rows_above),
+      a.columns_meet | b.columns_meet | c.columns_meet | (a.columns_above ^ b.columns_above) |
+          (b.columns_above ^ c.columns_above),
+      a.near || b.near || c.near, std::min({a.z, b.z, c.z})};
+}
+
+/// No hit bounds the ray: more than any depth_lower().
+inline constexpr std::uint32_t kNoBound = (1U << kDepthBits) - 1;
+
+/// What a hit with quotient code `q` leaves of its ray: objects at this depth code or beyond are hidden.
+[[nodiscard]] constexpr std::uint32_t bound_of(std::uint32_t q) noexcept {
+  return std::min(q + std::uint32_t{kQuotientError}, kNoBound);
+}
+
+/// The bounds of 16 rays, or of 16 rows: only objects with a smaller depth code matter.
+using LineBounds = std::array<std::uint32_t, kMaxRows>;
+
+/// Bounds as the RTL's ports take them: line k at k * kDepthBits.
+[[nodiscard]] constexpr PackedWord<kMaxRows * kDepthBits> pack(const LineBounds& bounds) noexcept {
+  PackedWord<kMaxRows * kDepthBits> word{};
+  for (int k = 0; k < kMaxRows; ++k) {
+    insert(word, {k * kDepthBits, kDepthBits}, bounds[static_cast<std::size_t>(k)]);
+  }
+  return word;
+}
+
+/// The lines to whose bound something at depth z matters.
+[[nodiscard]] constexpr LineMask lines_beyond(std::uint32_t z, const LineBounds& bounds) noexcept {
+  LineMask lines = 0;
+  for (std::size_t k = 0; k < bounds.size(); ++k) {
+    lines |= (z < bounds[k] ? 1U : 0U) << k;
+  }
+  return lines;
+}
+
 /// Sphere Memory in fixed point: a node of the tree.
 struct NodeWord {
   FixedVec3 centre{};

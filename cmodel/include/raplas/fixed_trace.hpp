@@ -6,7 +6,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "raplas/fixed_point.hpp"
@@ -29,46 +28,8 @@ struct FixedPencilMemory {
   PencilWord<F> pencil;
   LimitsWord limits;
   FixedPlanes planes;
-  std::array<Vec3<F>, std::size_t{kMaxRows} * kMaxColumns> rays;  ///< ray (r, c) at r * kMaxColumns + c
+  std::array<Vec3<F>, kMaxRays> rays;  ///< ray (r, c) at r * kMaxColumns + c
 };
-
-/// A triangle as the plane tests of its vertices leave it: which rays may hit it, and how deep it begins.
-struct CrossedLines {
-  std::uint32_t rows = 0;     ///< row planes that it crosses or comes near
-  std::uint32_t columns = 0;  ///< column planes likewise
-  bool near = false;          ///< not wholly behind
-  std::uint32_t z = 0;        ///< depth code: no point of it is less deep
-};
-
-/// A line is crossed if a vertex meets its plane or the vertices are not all on one side.
-[[nodiscard]] constexpr CrossedLines crossed_lines(const std::array<FixedTest, 3>& vertices) noexcept {
-  CrossedLines lines{0, 0, false, std::numeric_limits<std::uint32_t>::max()};
-  std::uint32_t rows_all = ~std::uint32_t{0};
-  std::uint32_t columns_all = ~std::uint32_t{0};
-  std::uint32_t rows_any = 0;
-  std::uint32_t columns_any = 0;
-  for (const FixedTest& v : vertices) {
-    lines.rows |= v.rows_meet;
-    lines.columns |= v.columns_meet;
-    rows_any |= v.rows_above;
-    rows_all &= v.rows_above;
-    columns_any |= v.columns_above;
-    columns_all &= v.columns_above;
-    lines.near = lines.near || v.near;
-    lines.z = v.z < lines.z ? v.z : lines.z;
-  }
-  lines.rows |= rows_any & ~rows_all;
-  lines.columns |= columns_any & ~columns_all;
-  return lines;
-}
-
-/// No hit bounds the ray: more than any depth_lower().
-inline constexpr std::uint32_t kNoBound = (1U << kDepthBits) - 1;
-
-/// What a hit with quotient code `q` leaves of its ray: objects at this depth code or beyond are hidden.
-[[nodiscard]] constexpr std::uint32_t bound_of(std::uint32_t q) noexcept {
-  return std::min(q + std::uint32_t{kQuotientError}, kNoBound);
-}
 
 /// What can be skipped. None of it changes a hit.
 struct Skips {
@@ -94,14 +55,12 @@ struct FixedCounts {
 template <typename F>
 class FixedTrace {
  public:
-  static constexpr std::size_t kRays = std::size_t{kMaxRows} * kMaxColumns;
-  using Results = std::array<ResultWord<F>, kRays>;
+  using Results = std::array<ResultWord<F>, kMaxRays>;
 
   FixedTrace(const FixedSceneMemory<F>& scene, const FixedPencilMemory<F>& pencil, const Skips& skips = {})
       : scene_(scene), pencil_(pencil), skips_(skips) {
-    const auto low_bits = [](std::uint32_t count) { return (std::uint32_t{1} << count) - 1; };
-    rows_ = low_bits(pencil.pencil.rows);
-    columns_ = low_bits(pencil.pencil.columns);
+    rows_ = first_lines(pencil.pencil.rows);
+    columns_ = first_lines(pencil.pencil.columns);
     bounds_.fill(pencil.limits.far);
     if (skips.tree) {
       stack_.push_back({false, scene.scene.first, scene.scene.count, rows_, columns_, 0});
@@ -187,7 +146,7 @@ class FixedTrace {
     if (skips_.rectangles && skips_.behind && !lines.near) {
       return;
     }
-    for (std::uint32_t ray = 0; ray < kRays; ++ray) {
+    for (std::uint32_t ray = 0; ray < kMaxRays; ++ray) {
       const std::uint32_t row = ray / kMaxColumns;
       const std::uint32_t column = ray % kMaxColumns;
       const auto in = [row, column](std::uint32_t rows, std::uint32_t columns) {
@@ -223,7 +182,7 @@ class FixedTrace {
   /// Rows with a ray for which depth z matters.
   [[nodiscard]] std::uint32_t rows_in_front(std::uint32_t z) const noexcept {
     std::uint32_t rows = 0;
-    for (std::uint32_t ray = 0; ray < kRays; ++ray) {
+    for (std::uint32_t ray = 0; ray < kMaxRays; ++ray) {
       if ((columns_ >> (ray % kMaxColumns) & 1U) != 0 && in_front(ray, z)) {
         rows |= 1U << (ray / kMaxColumns);
       }
@@ -237,7 +196,7 @@ class FixedTrace {
   std::uint32_t rows_ = 0;     ///< of the pencil
   std::uint32_t columns_ = 0;  ///< of the pencil
   std::vector<Range> stack_;
-  std::array<std::uint32_t, kRays> bounds_{};
+  std::array<std::uint32_t, kMaxRays> bounds_{};
   Results results_{};
   FixedCounts counts_;
 };

@@ -16,8 +16,6 @@
 
 namespace raplas {
 
-inline constexpr std::size_t kMaxRays = std::size_t{kMaxRows} * kMaxColumns;
-
 /// Sphere and Triangle memories and the scene register.
 template <typename F>
 struct SceneMemory {
@@ -39,9 +37,6 @@ struct PencilMemory {
 template <typename F>
 using ResultMemory = std::array<ResultWord<F>, kMaxRays>;
 
-/// Counters of one pencil, in the order of raplas::Counter; the RTL's wrap at 2^kCounterBits.
-using PencilCounters = std::array<std::uint32_t, kNumCounters>;
-
 /// Number of testers.
 struct Testers {
   int rows = 4;
@@ -52,7 +47,7 @@ struct Testers {
 /// what the clocked model and the RTL must give whatever their timing.
 template <typename F>
 void trace_pencil(const SceneMemory<F>& scene, const PencilMemory<F>& pencil, ResultMemory<F>& results,
-                  PencilCounters& counters) {
+                  EventCounters& counters) {
   results.fill({});
   counters.fill(0);
   const auto count = [&counters](Counter c) -> std::uint32_t& {
@@ -131,7 +126,7 @@ class IntersectionUnit {
   [[nodiscard]] PencilMemory<F>& pencil(std::size_t bank) noexcept { return pencils_[bank]; }
   [[nodiscard]] const ResultMemory<F>& results(std::size_t bank) const noexcept { return results_[bank]; }
   [[nodiscard]] bool busy() const noexcept { return busy_; }
-  [[nodiscard]] const PencilCounters& counters() const noexcept { return counters_; }
+  [[nodiscard]] const EventCounters& counters() const noexcept { return counters_; }
 
   /// What crosses the edges between the units in the clock that comes next.
   [[nodiscard]] UnitEdges<F> edges() const {
@@ -281,7 +276,7 @@ class IntersectionUnit {
   const SceneMemory<F>* scene_ = nullptr;
   std::array<PencilMemory<F>, 2> pencils_{};
   std::array<ResultMemory<F>, 2> results_{};
-  PencilCounters counters_{};
+  EventCounters counters_{};
   std::size_t bank_ = 0;
   bool busy_ = false;
   bool starting_ = false;

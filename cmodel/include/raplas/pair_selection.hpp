@@ -9,32 +9,9 @@
 #include <cstdint>
 
 #include "raplas/clocked.hpp"
-#include "raplas/words.hpp"
+#include "raplas/fixed_point.hpp"
 
 namespace raplas {
-
-/// A bit for each row, or each column, of a pencil.
-using LineMask = std::uint32_t;
-/// The bounds of 16 lines.
-using LineBounds = std::array<std::uint32_t, kMaxRows>;
-
-/// Bounds as the RTL's ports take them: line k at k * kDepthBits.
-[[nodiscard]] constexpr PackedWord<kMaxRows * kDepthBits> pack(const LineBounds& bounds) noexcept {
-  PackedWord<kMaxRows * kDepthBits> word{};
-  for (int k = 0; k < kMaxRows; ++k) {
-    insert(word, {k * kDepthBits, kDepthBits}, bounds[static_cast<std::size_t>(k)]);
-  }
-  return word;
-}
-
-/// The lines to whose bound something at depth z matters.
-[[nodiscard]] constexpr LineMask lines_beyond(std::uint32_t z, const LineBounds& bounds) noexcept {
-  LineMask lines = 0;
-  for (std::size_t k = 0; k < bounds.size(); ++k) {
-    lines |= (z < bounds[k] ? 1U : 0U) << k;
-  }
-  return lines;
-}
 
 /// A triangle that crosses rows and columns of the pencil.
 struct CrossingTriangle {
@@ -45,9 +22,7 @@ struct CrossingTriangle {
   std::uint32_t triangle = 0;
 };
 
-/// Entity triangle_lines. Test has the fields of FixedTest: rows_meet, rows_above, columns_meet,
-/// columns_above, near, z.
-template <typename Test>
+/// Entity triangle_lines.
 class TriangleLines {
  public:
   /// The triangle that the vertex of the last clock closed.
@@ -55,26 +30,21 @@ class TriangleLines {
 
   /// A vertex goes into slot 0, 1 or 2; with emit the slots hold a triangle. rows, columns: masks inherited
   /// from the spheres above it.
-  void clock(bool valid, std::size_t slot, bool emit, const Test& test, LineMask rows, LineMask columns,
+  void clock(bool valid, std::size_t slot, bool emit, const FixedTest& test, LineMask rows, LineMask columns,
              std::uint32_t triangle) noexcept {
     if (valid && slot < slots_.size()) {
       slots_[slot] = test;
     }
-    const auto& [a, b, c] = slots_;
-    const LineMask rows_crossed = a.rows_meet | b.rows_meet | c.rows_meet | (a.rows_above ^ b.rows_above) |
-                                  (b.rows_above ^ c.rows_above);
-    const LineMask columns_crossed = a.columns_meet | b.columns_meet | c.columns_meet |
-                                     (a.columns_above ^ b.columns_above) |
-                                     (b.columns_above ^ c.columns_above);
-    out_.rows = rows & rows_crossed;
-    out_.columns = columns & columns_crossed;
-    out_.z = std::min({a.z, b.z, c.z});
+    const CrossedLines lines = crossed_lines(slots_);
+    out_.rows = rows & lines.rows;
+    out_.columns = columns & lines.columns;
+    out_.z = lines.z;
     out_.triangle = triangle;
-    out_.valid = valid && emit && (a.near || b.near || c.near) && out_.rows != 0 && out_.columns != 0;
+    out_.valid = valid && emit && lines.near && out_.rows != 0 && out_.columns != 0;
   }
 
  private:
-  std::array<Test, 3> slots_{};
+  std::array<FixedTest, 3> slots_{};
   CrossingTriangle out_;
 };
 

@@ -7,15 +7,12 @@
 
 #include "raplas/clocked.hpp"
 #include "raplas/fixed_trace.hpp"
-#include "raplas/nearest_loop.hpp"
+#include "raplas/hit_queue.hpp"
 #include "raplas/pair_selection.hpp"
 #include "raplas/pencil_control.hpp"
 #include "raplas/tree_walk.hpp"
 
 namespace raplas {
-
-/// Counters since reset, in the order of raplas::Counter; they wrap at 2^kCounterBits.
-using UnitCounters = std::array<std::uint32_t, kNumCounters>;
 
 /// What the units say to each other in one clock: the last port group of entity raplas_unit.
 template <typename F>
@@ -44,7 +41,8 @@ class RaplasUnit {
   }
   /// A bit for each bank that was started and isn't done.
   [[nodiscard]] std::uint32_t busy() const noexcept { return control_.busy(); }
-  [[nodiscard]] const UnitCounters& counters() const noexcept { return counters_; }
+  /// Since reset.
+  [[nodiscard]] const EventCounters& counters() const noexcept { return counters_; }
   /// Whose objects are tested, and whose pairs.
   [[nodiscard]] std::size_t walk_bank() const noexcept { return control_.bank(); }
   [[nodiscard]] std::size_t pair_bank() const noexcept { return columns_.row().bank; }
@@ -105,12 +103,11 @@ class RaplasUnit {
     const bool walk_idle = walk_.idle();
     lines_.clock(tested.request.valid && tested.request.vertex, tested.vertex.slot, tested.vertex.emit,
                  tested.test, tested.request.rows, tested.request.columns, tested.vertex.triangle);
-    const auto low_bits = [](std::uint32_t lines) { return (std::uint32_t{1} << lines) - 1; };
     const SceneWord& root = scene_->scene;
-    walk_.clock(
-        control.walk && root.count != 0,
-        {false, root.count, root.first, low_bits(pencil.pencil.rows), low_bits(pencil.pencil.columns), 0},
-        e.request, bounds_.row_bounds(turn), decision(tested));
+    walk_.clock(control.walk && root.count != 0,
+                {false, root.count, root.first, first_lines(pencil.pencil.rows),
+                 first_lines(pencil.pencil.columns), 0},
+                e.request, bounds_.row_bounds(turn), decision(tested));
     testers_.clock(e.request.valid ? test(e.request, pencil) : Tested{});
     bounds_.clock({control.clear, turn, pencil.pencil.rows, pencil.pencil.columns, pencil.limits.far},
                   {e.stored.write, e.stored.bank, e.stored.ray, e.stored.bound}, read);
@@ -123,7 +120,7 @@ class RaplasUnit {
   /// Triangles between the walk's count of objects under test and the queue's of triangles.
   static constexpr int kReserve = 2;
   static constexpr std::size_t kTestStages = kMemoryStages + kPlaneTestStages + kDepthCodeStages;
-  static constexpr std::size_t kPairStages = kMemoryStages + kRayTriangleStages - kMulStages;
+  static constexpr std::size_t kPairStages = kMemoryStages + kRaySolverStages;
 
   struct Tested {
     WalkRequest request;
@@ -212,11 +209,11 @@ class RaplasUnit {
   const FixedSceneMemory<F>* scene_ = nullptr;
   std::array<FixedPencilMemory<F>, kPencilBanks> pencils_{};
   std::array<typename FixedTrace<F>::Results, kPencilBanks> results_{};
-  UnitCounters counters_{};
+  EventCounters counters_{};
   PencilControl control_;
   TreeWalk walk_;
   Delay<Tested, kTestStages> testers_;
-  TriangleLines<FixedTest> lines_;
+  TriangleLines lines_;
   Fifo<QueuedTriangle, std::size_t{1} << kTriangleFifoDepthLog2> triangles_;
   RowSelector selector_;
   Fifo<QueuedRow, std::size_t{1} << kRowFifoDepthLog2> rows_;

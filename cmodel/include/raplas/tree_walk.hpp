@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "raplas/words.hpp"
+#include "raplas/fixed_point.hpp"
 
 namespace raplas {
 
@@ -41,18 +41,6 @@ struct WalkRange {
     return word;
   }
 };
-
-/// Depth codes that a row's objects must be below.
-using RowBounds = std::array<std::uint32_t, kMaxRows>;
-
-/// The port row_bounds_i.
-[[nodiscard]] inline PackedWord<kMaxRows * kDepthBits> pack_bounds(const RowBounds& bounds) noexcept {
-  PackedWord<kMaxRows * kDepthBits> word{};
-  for (int row = 0; row < kMaxRows; ++row) {
-    insert(word, Field{row * kDepthBits, kDepthBits}, bounds[static_cast<std::size_t>(row)]);
-  }
-  return word;
-}
 
 /// An object for the testers.
 struct WalkRequest {
@@ -92,7 +80,7 @@ class TreeWalk {
   [[nodiscard]] const WalkRange& top() const noexcept { return stack_.back(); }
 
   /// One clock. `request` is what request() gave in this clock.
-  void clock(bool start, const WalkRange& root, const WalkRequest& request, const RowBounds& bounds,
+  void clock(bool start, const WalkRange& root, const WalkRequest& request, const LineBounds& bounds,
              const WalkDecision& decision) {
     const bool alone = !active_ && under_test_ == 0;
     const bool relaxed = level() < kStackWatermark;
@@ -109,7 +97,7 @@ class TreeWalk {
       active_ = true;
     } else if (!stack_.empty()) {
       WalkRange next = stack_.back();
-      next.rows = live_rows(next, bounds);
+      next.rows &= lines_beyond(next.z, bounds);
       const bool wanted = (free && relaxed) || alone;
       if (next.rows == 0 || wanted) {
         stack_.pop_back();
@@ -134,14 +122,6 @@ class TreeWalk {
   }
 
  private:
-  [[nodiscard]] static std::uint32_t live_rows(const WalkRange& range, const RowBounds& bounds) noexcept {
-    std::uint32_t rows = 0;
-    for (std::size_t row = 0; row < kMaxRows; ++row) {
-      rows |= (range.z < bounds[row] ? 1U : 0U) << row;
-    }
-    return rows & range.rows;
-  }
-
   bool active_ = false;
   WalkRange range_{};             ///< what is left of the current range
   std::vector<WalkRange> stack_;  ///< back() is the top

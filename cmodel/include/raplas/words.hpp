@@ -17,6 +17,12 @@ using PackedWord = std::array<std::uint32_t, static_cast<std::size_t>((kBits + 3
 /// The largest sphere, vertex or triangle ID.
 inline constexpr std::uint32_t kLastId = (std::uint32_t{1} << kIdBits) - 1;
 
+/// Rays of a pencil at most; ray (r, c) is number r * kMaxColumns + c.
+inline constexpr std::size_t kMaxRays = std::size_t{kMaxRows} * kMaxColumns;
+
+/// Event counters in the order of raplas::Counter; they wrap at 2^kCounterBits.
+using EventCounters = std::array<std::uint32_t, kNumCounters>;
+
 /// Puts the low bits of `value` into a field of a packed word.
 template <std::size_t kWords>
 constexpr void insert(std::array<std::uint32_t, kWords>& word, Field field, std::uint32_t value) noexcept {

@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "raplas/device.hpp"
-#include "raplas/fixed_point.hpp"
-#include "raplas/float.hpp"
+#include "raplas/fixed_trace.hpp"
 
 namespace raplas {
 
@@ -18,22 +17,16 @@ inline constexpr std::uint32_t kMaxSlack = 255;
 /// No corner of a triangle as stored lies farther than this from its vertex word.
 inline constexpr double kMaxVertexError = 0x1p-16;
 
-/// The Sphere, Vertex and Triangle memories and the scene register.
+/// A scene's memories.
 struct FixedScene {
-  std::vector<NodeWord> nodes;
-  std::vector<VertexWord> vertices;
-  std::vector<TriangleWord<Fp24>> triangles;
-  SceneWord scene;
+  FixedSceneMemory<Fp24> memory;
   double vertex_error = 0;  ///< largest distance of a triangle's corner as stored from its vertex word
 };
 
-/// One bank of the Plane and Ray memories, and the pencil's registers.
+/// A pencil's bank.
 struct FixedPencil {
-  PencilWord<Fp24> pencil;
-  FixedPlanes planes;
-  std::array<Vec3<Fp24>, std::size_t{kMaxRows} * kMaxColumns> rays;  ///< ray (r, c) at r * kMaxColumns + c
-  LimitsWord limits;
-  std::array<double, std::size_t{kMaxRows} * kMaxColumns> t_scale{};  ///< Hit::t_scale of each ray
+  FixedPencilMemory<Fp24> memory;
+  std::array<double, kMaxRays> t_scale{};  ///< Hit::t_scale of each ray
 };
 
 /// The words of a scene that check_tree() passes. Vertices are those of the triangles as stored, to nearest;
@@ -50,7 +43,7 @@ struct FixedPencil {
 /// it, std::range_error for an origin far outside the unit ball.
 [[nodiscard]] FixedPencil encode_fixed(const Pencil& pencil, double vertex_error = kMaxVertexError);
 
-/// A result as the renderer takes it; `ray` as in FixedPencil::rays.
+/// A result as the renderer takes it; `ray` as in FixedPencilMemory::rays.
 [[nodiscard]] Hit decode_fixed(const ResultWord<Fp24>& word, const FixedPencil& pencil, std::size_t ray);
 
 }  // namespace raplas

@@ -91,9 +91,9 @@ class IntersectionUnitBench : public testing::Test {
   /// Counters and results against the clocked model and the value-exact walk.
   void check(const SceneMemory<F>& scene, const PencilMemory<F>& pencil, std::size_t bank) {
     ResultMemory<F> results;
-    PencilCounters exact{};
+    EventCounters exact{};
     trace_pencil(scene, pencil, results, exact);
-    PencilCounters counters{};
+    EventCounters counters{};
     dut().get(dut().port("counters_o"), counters);
     for (std::size_t k = 0; k < counters.size(); ++k) {
       ASSERT_EQ(counters[k], model_.counters()[k]) << kCounterNames[k];

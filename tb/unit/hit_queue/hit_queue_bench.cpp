@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "oracle.hpp"
-#include "raplas/nearest_loop.hpp"
+#include "raplas/hit_queue.hpp"
 #include "support/scoreboard.hpp"
 
 namespace raplas {

@@ -22,8 +22,8 @@ constexpr std::uint32_t kWidest = (1U << kCountBits) - 1;
 constexpr int kTriangleRoom = 1 << kTriangleFifoDepthLog2;
 constexpr int kMostUnderTest = 32;  // that the environment may have
 
-RowBounds all_bounds(std::uint32_t bound) {
-  RowBounds bounds{};
+LineBounds all_bounds(std::uint32_t bound) {
+  LineBounds bounds{};
   bounds.fill(bound);
   return bounds;
 }
@@ -34,7 +34,7 @@ class TreeWalkBench : public testing::Test {
   struct Inputs {
     bool start = false;
     WalkRange root{};
-    RowBounds bounds = all_bounds(kDepths - 1);
+    LineBounds bounds = all_bounds(kDepths - 1);
     WalkDecision decision{};
     int triangles = 0;
   };
@@ -53,7 +53,7 @@ class TreeWalkBench : public testing::Test {
     dut().set(root_count_, in.root.count);
     dut().set(rows_, in.root.rows);
     dut().set(columns_, in.root.columns);
-    dut().set(row_bounds_, pack_bounds(in.bounds));
+    dut().set(row_bounds_, pack(in.bounds));
     dut().set(push_, number(in.decision.push));
     dut().set(push_range_, in.decision.range.pack());
     dut().set(decided_, number(in.decision.decided));
@@ -174,7 +174,7 @@ class TreeWalkTrees : public TreeWalkBench {
     std::vector<std::uint32_t> masks(ranges.size());
     std::vector<bool> given(ranges.size());
     std::deque<Object> testers(static_cast<std::size_t>(around.latency));
-    RowBounds bounds = all_bounds(kDepths - 1);
+    LineBounds bounds = all_bounds(kDepths - 1);
     std::size_t current = 0;
     int triangles = 0;
     given[0] = true;

@@ -20,15 +20,6 @@ struct Vertex {
 };
 constexpr int kReach = 1;
 
-struct VertexTest {
-  LineMask rows_meet = 0;
-  LineMask rows_above = 0;
-  LineMask columns_meet = 0;
-  LineMask columns_above = 0;
-  bool near = false;
-  std::uint32_t z = 0;
-};
-
 template <std::size_t kLines, typename Rule>
 LineMask mask_of(const std::array<int, kLines>& distances, Rule rule) {
   LineMask mask = 0;
@@ -38,7 +29,7 @@ LineMask mask_of(const std::array<int, kLines>& distances, Rule rule) {
   return mask;
 }
 
-VertexTest test_of(const Vertex& vertex) {
+FixedTest test_of(const Vertex& vertex) {
   const auto meets = [](int d) { return std::abs(d) <= kReach; };
   const auto above = [](int d) { return d >= 0; };
   return {mask_of(vertex.rows, meets),
@@ -94,7 +85,7 @@ class TriangleLinesBench : public testing::Test {
     return random_() % 3 == 0 ? 1U << (random_() % 16) : (random_() % 8 == 0 ? 0 : bits);
   }
 
-  void give(bool valid, std::size_t slot, bool emit, const VertexTest& test, LineMask rows, LineMask columns,
+  void give(bool valid, std::size_t slot, bool emit, const FixedTest& test, LineMask rows, LineMask columns,
             std::uint32_t triangle) {
     dut().set(dut().port("valid_i"), valid ? 1 : 0);
     dut().set(dut().port("slot_i"), slot);
@@ -112,7 +103,7 @@ class TriangleLinesBench : public testing::Test {
 
   void run(unsigned valid_percent, unsigned emit_percent) {
     reset_dut();
-    TriangleLines<VertexTest> model;
+    TriangleLines model;
     std::array<Vertex, 3> slots;
     std::size_t dropped = 0;
     std::size_t seen = 0;
@@ -174,7 +165,7 @@ TEST_F(TriangleLinesBench, EachLineAloneKeepsTheTriangleWhicheverVertexCrossesIt
     for (std::size_t line = 0; line < 32; ++line) {
       for (const bool meets : {false, true}) {
         for (std::size_t k = 0; k < 3; ++k) {
-          VertexTest test{0, 0, 0, 0, false, 100};
+          FixedTest test{0, 0, 0, 0, false, 100};
           const bool odd = k == slot;  // this vertex differs from the other two
           (meets ? test.rows_meet : test.rows_above) = odd ? 1U << (line % 16) : 0U;
           (meets ? test.columns_meet : test.columns_above) = odd ? 1U << (15 - line % 16) : 0U;

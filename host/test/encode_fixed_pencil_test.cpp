@@ -1,5 +1,4 @@
-#include "raplas/encode_fixed.hpp"
-
+// Pencils in fixed point: no hit of a ray as stored is lost, limits, scales, and what is refused.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -7,16 +6,13 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
-#include <functional>
-#include <glm/geometric.hpp>
 #include <limits>
 #include <memory>
 #include <stdexcept>
-#include <string>
 
+#include "encode_fixed_source.hpp"
 #include "exact_hit.hpp"
 #include "figures.hpp"
-#include "random.hpp"
 #include "raplas/encode.hpp"
 #include "raplas/pencil.hpp"
 #include "raplas/renderer.hpp"
@@ -25,32 +21,6 @@
 
 namespace raplas {
 namespace {
-
-constexpr double kUnit = 0x1p-17;
-
-/// Random numbers and vectors.
-class Source {
- public:
-  explicit Source(std::uint64_t seed) : random_(seed) {}
-
-  double uniform(double low, double high) {
-    return low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53;
-  }
-  std::uint32_t below(std::uint32_t limit) { return random_.below(limit); }
-  glm::dvec3 in_cube() { return {uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)}; }
-  glm::dvec3 on_sphere() {
-    for (;;) {
-      const glm::dvec3 v = in_cube();
-      const double length = glm::length(v);
-      if (length > 0.1 && length <= 1) {
-        return v / length;
-      }
-    }
-  }
-
- private:
-  Xoshiro random_;
-};
 
 glm::dvec3 any_across(const glm::dvec3& v) {
   return glm::normalize(glm::cross(v, std::abs(v.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
@@ -142,7 +112,7 @@ TriangleTest test_triangle(const FixedPencil& pencil, const std::array<FixedVec3
   FixedTest any;
   FixedTest all{~0U, ~0U, ~0U, ~0U, true, 0};
   for (const FixedVec3& corner : corners) {
-    const FixedTest t = test_object(pencil.planes, corner, 0, slack);
+    const FixedTest t = test_object(pencil.memory.planes, corner, 0, slack);
     any.rows_meet |= t.rows_meet;
     any.rows_above |= t.rows_above;
     any.columns_meet |= t.columns_meet;
@@ -150,24 +120,11 @@ TriangleTest test_triangle(const FixedPencil& pencil, const std::array<FixedVec3
     all.rows_above &= t.rows_above;
     all.columns_above &= t.columns_above;
     result.near = result.near || t.near;
-    result.depth = std::min(
-        result.depth, plane_sum(pencil.planes.depth, corner) - (std::int64_t{slack} << kCoordinateFraction));
+    result.depth = std::min(result.depth, plane_sum(pencil.memory.planes.depth, corner) -
+                                              (std::int64_t{slack} << kCoordinateFraction));
   }
   result.rows = any.rows_meet | (any.rows_above & ~all.rows_above);
   result.columns = any.columns_meet | (any.columns_above & ~all.columns_above);
-  return result;
-}
-
-/// The triangles' vertex words, as the slots hold them.
-std::vector<std::array<FixedVec3, 3>> slots_of(const FixedScene& scene, std::size_t triangles) {
-  std::vector<std::array<FixedVec3, 3>> result(triangles);
-  std::array<FixedVec3, 3> slots{};
-  for (const VertexWord& word : scene.vertices) {
-    slots.at(word.slot) = word.point;
-    if (word.emit) {
-      result.at(word.triangle) = slots;
-    }
-  }
   return result;
 }
 
@@ -184,16 +141,16 @@ Deviation deviation(const FixedPencil& words, double far) {
   const auto product = [](const Vector& a, const Vector& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
   };
-  const Vector origin = vector(decode(words.pencil.origin));
+  const Vector origin = vector(decode(words.memory.pencil.origin));
   const auto distance = [&](const FixedPlane& plane, const Vector& point) {
     const Vector normal{plane.normal[0] * 0x1p-17L, plane.normal[1] * 0x1p-17L, plane.normal[2] * 0x1p-17L};
     return product(normal, point) + static_cast<long double>(plane.offset) * 0x1p-34L;
   };
   constexpr long double kNone = -10;
   Deviation most{0, kNone, kNone};
-  for (std::size_t r = 0; r < words.pencil.rows; ++r) {
-    for (std::size_t c = 0; c < words.pencil.columns; ++c) {
-      const Vector direction = vector(decode(words.rays[r * kMaxColumns + c]));
+  for (std::size_t r = 0; r < words.memory.pencil.rows; ++r) {
+    for (std::size_t c = 0; c < words.memory.pencil.columns; ++c) {
+      const Vector direction = vector(decode(words.memory.rays[r * kMaxColumns + c]));
       const long double a = product(direction, direction);
       const long double half = product(origin, direction);
       const long double square = half * half - a * (product(origin, origin) - 1);
@@ -204,10 +161,10 @@ Deviation deviation(const FixedPencil& words, double far) {
       for (const long double t : {0.0L, last}) {
         const Vector point{origin[0] + t * direction[0], origin[1] + t * direction[1],
                            origin[2] + t * direction[2]};
-        most.aside = std::max({most.aside, std::abs(distance(words.planes.rows[r], point)),
-                               std::abs(distance(words.planes.columns[c], point))});
-        most.behind = std::max(most.behind, -distance(words.planes.near, point));
-        most.deeper = std::max(most.deeper, distance(words.planes.depth, point) - t);
+        most.aside = std::max({most.aside, std::abs(distance(words.memory.planes.rows[r], point)),
+                               std::abs(distance(words.memory.planes.columns[c], point))});
+        most.behind = std::max(most.behind, -distance(words.memory.planes.near, point));
+        most.deeper = std::max(most.deeper, distance(words.memory.planes.depth, point) - t);
       }
     }
   }
@@ -223,15 +180,6 @@ void expect_ranges(const FixedPlane& plane) {
   }
   EXPECT_LE(square, std::int64_t{1} << (2 * kCoordinateFraction));
   EXPECT_LT(std::abs(plane.offset), std::int64_t{1} << (kOffsetBits - 1));
-}
-
-/// A scene of one leaf.
-DeviceScene one_leaf(const std::vector<Triangle>& triangles) {
-  DeviceScene scene;
-  scene.triangles = triangles;
-  scene.nodes.push_back({glm::dvec3(0), 1, true, 0, static_cast<std::uint32_t>(triangles.size())});
-  scene.root_count = 1;
-  return scene;
 }
 
 TEST(EncodeFixed, EveryHitOfARayAsStoredIsFoundByItsLines) {
@@ -259,25 +207,25 @@ TEST(EncodeFixed, EveryHitOfARayAsStoredIsFoundByItsLines) {
     const FixedScene scene = encode_fixed(one_leaf(triangles));
     const FixedPencil words = encode_fixed(pencil, scene.vertex_error);
     const Deviation most = deviation(words, pencil.far);
-    const double spare = words.limits.slack * kUnit - scene.vertex_error;
+    const double spare = words.memory.limits.slack * kUnit - scene.vertex_error;
     ASSERT_LE(most.aside, spare);
     ASSERT_LE(most.behind, spare);
     ASSERT_LE(most.deeper, spare);
-    std::for_each(words.planes.rows.begin(), words.planes.rows.end(), expect_ranges);
-    std::for_each(words.planes.columns.begin(), words.planes.columns.end(), expect_ranges);
-    expect_ranges(words.planes.near);
-    expect_ranges(words.planes.depth);
+    std::for_each(words.memory.planes.rows.begin(), words.memory.planes.rows.end(), expect_ranges);
+    std::for_each(words.memory.planes.columns.begin(), words.memory.planes.columns.end(), expect_ranges);
+    expect_ranges(words.memory.planes.near);
+    expect_ranges(words.memory.planes.depth);
     const auto slots = slots_of(scene, triangles.size());
     for (std::size_t k = 0; k < triangles.size(); ++k) {
       const auto [r, c] = rays[k];
       const auto ray = static_cast<std::size_t>(r) * kMaxColumns + static_cast<std::size_t>(c);
-      const TriangleWord<Fp24>& stored = scene.triangles[k];
-      const auto t = exact_hit(decode(words.pencil.origin), decode(words.rays[ray]), decode(stored.v0),
-                               decode(stored.e1), decode(stored.e2));
-      if (!t || depth_code(*t) >= words.limits.far) {
+      const TriangleWord<Fp24>& stored = scene.memory.triangles[k];
+      const auto t = exact_hit(decode(words.memory.pencil.origin), decode(words.memory.rays[ray]),
+                               decode(stored.v0), decode(stored.e1), decode(stored.e2));
+      if (!t || depth_code(*t) >= words.memory.limits.far) {
         continue;
       }
-      const TriangleTest test = test_triangle(words, slots[k], words.limits.slack);
+      const TriangleTest test = test_triangle(words, slots[k], words.memory.limits.slack);
       const auto finds = [r = r, c = c](const TriangleTest& of) {
         return (of.rows >> r & of.columns >> c & 1U) != 0;
       };
@@ -287,7 +235,7 @@ TEST(EncodeFixed, EveryHitOfARayAsStoredIsFoundByItsLines) {
       ++hits;
       depths += depth_code(test.depth) > 0 ? 1U : 0U;
       lost_without_slack += finds(test_triangle(words, slots[k], 0)) ? 0U : 1U;
-      lost_with_half += finds(test_triangle(words, slots[k], words.limits.slack / 2)) ? 0U : 1U;
+      lost_with_half += finds(test_triangle(words, slots[k], words.memory.limits.slack / 2)) ? 0U : 1U;
     }
     done += triangles.size();
   }
@@ -299,115 +247,6 @@ TEST(EncodeFixed, EveryHitOfARayAsStoredIsFoundByItsLines) {
   EXPECT_GT(lost_without_slack, 0U);
 }
 
-/// Walks the nodes; checks that each encloses the vertex words of its leaves.
-void check_below(const FixedScene& scene, std::uint32_t first, std::uint32_t count,
-                 const std::vector<NodeWord>& path, std::uint64_t& checked) {
-  for (std::uint32_t k = first; k < first + count; ++k) {
-    const NodeWord& node = scene.nodes.at(k);
-    std::vector<NodeWord> here = path;
-    here.push_back(node);
-    if (!node.leaf) {
-      check_below(scene, node.first, node.count, here, checked);
-      continue;
-    }
-    for (std::uint32_t v = node.first; v < node.first + node.count; ++v) {
-      for (const NodeWord& above : here) {
-        std::int64_t square = 0;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          const std::int64_t d = scene.vertices.at(v).point[axis] - above.centre[axis];
-          square += d * d;
-        }
-        ASSERT_LE(square, std::int64_t{above.radius} * above.radius);
-        ++checked;
-      }
-    }
-  }
-}
-
-/// A closed surface: a sphere of rings x sectors quadrilaterals.
-std::vector<Triangle> globe(int rings, int sectors) {
-  const auto at = [&](int ring, int sector) {
-    const double a = 3.14159265358979 * ring / rings;
-    const double b = 6.28318530717959 * (sector % sectors) / sectors;
-    return glm::dvec3(0.1, -0.1, 0.05) +
-           0.8 * glm::dvec3(std::sin(a) * std::cos(b), std::cos(a), std::sin(a) * std::sin(b));
-  };
-  std::vector<Triangle> triangles;
-  const auto add = [&triangles](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-    if (glm::length(glm::cross(b - a, c - a)) > 1e-12) {
-      triangles.push_back({a, b - a, c - a});
-    }
-  };
-  for (int r = 0; r < rings; ++r) {
-    for (int s = 0; s < sectors; ++s) {
-      add(at(r, s), at(r + 1, s), at(r + 1, s + 1));
-      add(at(r, s), at(r + 1, s + 1), at(r, s + 1));
-    }
-  }
-  return triangles;
-}
-
-TEST(EncodeFixed, NodesHoldEveryVertexBelow) {
-  const SphereTree tree = build_tree(globe(40, 60));
-  check_tree(tree.scene);
-  const FixedScene words = encode_fixed(tree.scene);
-  std::uint64_t checked = 0;
-  check_below(words, words.scene.first, words.scene.count, {}, checked);
-  EXPECT_GT(checked, 0U);
-  EXPECT_EQ(words.nodes.size(), tree.scene.nodes.size());
-  for (std::size_t k = 0; k < words.nodes.size(); ++k) {
-    EXPECT_EQ(words.nodes[k].leaf, tree.scene.nodes[k].leaf);
-    // no more than the rounding of centre, vertices and radius
-    EXPECT_LE(words.nodes[k].radius * kUnit, tree.scene.nodes[k].radius + 4 * kUnit);
-  }
-  const auto slots = slots_of(words, tree.scene.triangles.size());
-  for (std::size_t k = 0; k < slots.size(); ++k) {
-    const Triangle& t = tree.scene.triangles[k];
-    std::array<glm::dvec3, 3> corners{t.v0, t.v0 + t.e1, t.v0 + t.e2};
-    for (const FixedVec3& word : slots[k]) {
-      const glm::dvec3 v = glm::dvec3(word[0], word[1], word[2]) * kUnit;
-      EXPECT_TRUE(std::any_of(corners.begin(), corners.end(),
-                              [&v](const glm::dvec3& p) { return glm::distance(p, v) < kUnit; }));
-    }
-    const TriangleWord<Fp24> expected = encode<Fp24>(t);
-    EXPECT_EQ(words.triangles[k].pack(), expected.pack());
-  }
-  EXPECT_LE(words.vertex_error, kMaxVertexError);
-  EXPECT_LT(double(words.vertices.size()), 1.8 * double(slots.size()));
-}
-
-std::string complaint(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "";
-}
-
-TEST(EncodeFixed, RefusesScenesThatDoNotFit) {
-  const Triangle small{{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}};
-  EXPECT_EQ(complaint([&] { (void)encode_fixed(one_leaf({small})); }), "");
-  EXPECT_NE(complaint([&] {
-              (void)encode_fixed(one_leaf({{{0.9, 0.9, 0}, {0.1, 0, 0}, {0, 0.1, 0}}}));
-            }).find("node 0: a vertex lies outside"),
-            std::string::npos);
-  DeviceScene far_centre = one_leaf({small});
-  far_centre.nodes[0].centre = {0, 1, 0};
-  EXPECT_NE(complaint([&] { (void)encode_fixed(far_centre); }).find("node 0: its centre"), std::string::npos);
-  std::vector<Triangle> apart;
-  apart.reserve(43);
-  Source random(3);
-  for (int k = 0; k < 43; ++k) {
-    apart.push_back({random.in_cube() * 0.5, random.in_cube() * 0.1, random.in_cube() * 0.1});
-  }
-  EXPECT_NE(complaint([&] { (void)encode_fixed(one_leaf(apart)); }).find("node 0: 129 vertex words"),
-            std::string::npos);
-  DeviceScene wide = one_leaf({{{-0.57, -0.57, -0.57}, {0.1, 0, 0}, {0, 0.1, 0}}});
-  wide.nodes[0].centre = glm::dvec3(0.99);
-  EXPECT_NE(complaint([&] { (void)encode_fixed(wide); }).find("node 0: its radius"), std::string::npos);
-}
-
 /// A pencil of 2 x 3 rays along z.
 Pencil plain_pencil(const glm::dvec3& origin) {
   return make_pencil(origin, {origin + glm::dvec3(-0.1, -0.1, 0.5), {0, 0.1, 0}, {0.1, 0, 0}, 2, 3});
@@ -417,35 +256,36 @@ TEST(EncodeFixed, PencilsKeepTheirLimitsAndScaleRaysToTheAxis) {
   Pencil pencil = plain_pencil({0.1, -0.2, -0.7});
   EXPECT_EQ(pencil.axis, glm::dvec3(0, 0, 1));
   FixedPencil words = encode_fixed(pencil);
-  EXPECT_FALSE(words.limits.any_hit);
-  EXPECT_EQ(words.limits.far, 0x7fffU);
-  EXPECT_EQ(words.pencil.rows, 2U);
-  EXPECT_EQ(words.pencil.columns, 3U);
+  EXPECT_FALSE(words.memory.limits.any_hit);
+  EXPECT_EQ(words.memory.limits.far, 0x7fffU);
+  EXPECT_EQ(words.memory.pencil.rows, 2U);
+  EXPECT_EQ(words.memory.pencil.columns, 3U);
   for (std::size_t r = 0; r < 2; ++r) {
     for (std::size_t c = 0; c < 3; ++c) {
       const std::size_t ray = r * kMaxColumns + c;
-      EXPECT_EQ(words.rays[ray].z.to_double(), 1);
-      EXPECT_NEAR(words.t_scale[ray], glm::length(decode(words.rays[ray])), 1e-5);
+      EXPECT_EQ(words.memory.rays[ray].z.to_double(), 1);
+      EXPECT_NEAR(words.t_scale[ray], glm::length(decode(words.memory.rays[ray])), 1e-5);
     }
   }
   // lines that the pencil doesn't have are never met, whatever the sphere
-  const FixedTest test = test_object(words.planes, {}, (1U << kCoordinateBits) - 1 - kMaxSlack, kMaxSlack);
+  const FixedTest test =
+      test_object(words.memory.planes, {}, (1U << kCoordinateBits) - 1 - kMaxSlack, kMaxSlack);
   EXPECT_EQ(test.rows_meet, 0x3U);
   EXPECT_EQ(test.columns_meet, 0x7U);
   EXPECT_EQ(test.rows_above >> 2, 0x3fffU);
-  for (const FixedPlane& plane : words.planes.rows) {
+  for (const FixedPlane& plane : words.memory.planes.rows) {
     EXPECT_LE(glm::length(glm::dvec3(plane.normal[0], plane.normal[1], plane.normal[2])), 0x1p17);
   }
 
   pencil.far = 0.5;
   pencil.any_hit = true;
   words = encode_fixed(pencil);
-  EXPECT_TRUE(words.limits.any_hit);
-  EXPECT_EQ(words.limits.far, depth_code(std::int64_t{1} << 33));
+  EXPECT_TRUE(words.memory.limits.any_hit);
+  EXPECT_EQ(words.memory.limits.far, depth_code(std::int64_t{1} << 33));
   pencil.far = 1e30;
-  EXPECT_EQ(encode_fixed(pencil).limits.far, 0x7fffU);
+  EXPECT_EQ(encode_fixed(pencil).memory.limits.far, 0x7fffU);
   pencil.far = 0;
-  EXPECT_EQ(encode_fixed(pencil).limits.far, 0U);
+  EXPECT_EQ(encode_fixed(pencil).memory.limits.far, 0U);
 }
 
 TEST(EncodeFixed, RefusesPencilsThatDoNotFit) {
@@ -464,7 +304,7 @@ TEST(EncodeFixed, RaysAlongTheGridLeaveDepthsOut) {
   const glm::dvec3 v = glm::cross(axis, u);
   const FixedPencil words =
       encode_fixed(make_pencil({0, 0, 0}, {0.5 * u + axis * 0x1p-22, 0.1 * v, 0.1 * (u + v), 4, 4}));
-  const FixedTest test = test_object(words.planes, {-17000, -35000, -52000}, 0, 0);
+  const FixedTest test = test_object(words.memory.planes, {-17000, -35000, -52000}, 0, 0);
   EXPECT_TRUE(test.near);
   EXPECT_EQ(test.z, 0U);
 }
@@ -504,8 +344,8 @@ class Observer final : public IntersectionDevice {
     seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const std::size_t kind = pencil.rows == 16 ? 0 : 1;
     ++pencils.at(kind);
-    total.at(kind) += words.limits.slack;
-    most.at(kind) = std::max(most.at(kind), words.limits.slack);
+    total.at(kind) += words.memory.limits.slack;
+    most.at(kind) = std::max(most.at(kind), words.memory.limits.slack);
   }
   [[nodiscard]] Counters counters() const override { return {}; }
 
@@ -532,7 +372,7 @@ TEST(EncodeFixed, SlackAndWordsOfAScene) {
   tree.scene.max_origin = scene.max_origin;
   const FixedScene words = encode_fixed(tree.scene);
   fmt::print("encode_fixed.words_per_triangle {:.3f}\n",
-             double(words.vertices.size()) / double(words.triangles.size()));
+             double(words.memory.vertices.size()) / double(words.memory.triangles.size()));
   fmt::print("encode_fixed.vertex_error {:.3f} units\n", words.vertex_error / kUnit);
   Observer observer;
   observer.load(tree.scene);

@@ -145,11 +145,11 @@ class FixedDevice final : public IntersectionDevice {
   void next_pencil(std::span<const Pencil> pencils, std::vector<std::vector<Hit>>& hits, Progress& at) {
     while (at.encoded < pencils.size()) {
       const std::size_t index = at.encoded++;
-      FixedPencil words = encode_fixed(pencils[index], vertex_error_);
+      const FixedPencil words = encode_fixed(pencils[index], vertex_error_);
       if (std::any_of(root_.begin(), root_.end(),
                       [&](const NodeWord& node) { return meets(words.memory, node); })) {
         at.order.push_back(index);
-        at.banks.push_back(std::move(words));
+        at.banks.push_back(words);
         return;
       }
       hits[index].resize(pencils[index].directions.size());

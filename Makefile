@@ -69,7 +69,10 @@ mutation: configure ## mutants of the synthesized netlists that the benches noti
 	formal/mutation.py --check --build $(BUILD) --jobs $(JOBS) $(addprefix --unit ,$(UNIT))
 
 SKIP = $(BUILD)/host/raplas skip
-skip: build scenes ## what profile raplas skips, of four scenes, and how that grows with the mesh: tables and heat maps
+# the bundled and fetched meshes, each on a floor
+SKIP_MESHES = scenes/cornell_box.obj scenes/teapot.bpt $(addprefix $(BUILD)/scenes/, bunny_3k.ply bunny_69k.obj \
+  dragon_11k.ply dragon_47k.ply dragon_202k.ply dragon_871k.ply)
+skip: build scenes ## what profile raplas skips in all scenes, every result compared; tables and heat maps
 	@mkdir -p $(BUILD)/figures
 	$(SKIP) scenes/cornell.json --name cornell -o $(BUILD)/skip/cornell --json $(BUILD)/figures/skip.cornell.json
 	$(SKIP) scenes/cornell_teapot.json --name teapot -o $(BUILD)/skip/teapot --json $(BUILD)/figures/skip.teapot.json
@@ -77,9 +80,9 @@ skip: build scenes ## what profile raplas skips, of four scenes, and how that gr
 	  --json $(BUILD)/figures/skip.bunny_floor.json
 	$(SKIP) $(BUILD)/scenes/dragon_871k.ply --name dragon_floor -o $(BUILD)/skip/dragon_floor \
 	  --json $(BUILD)/figures/skip.dragon_floor.json
-	@for mesh in bunny_3k.ply bunny_69k.obj dragon_11k.ply dragon_47k.ply dragon_202k.ply dragon_871k.ply; do \
-	  $(SKIP) $(BUILD)/scenes/$$mesh --width 512 --height 512 --sample 32 -o $(BUILD)/skip/$${mesh%.*} \
-	    --json $(BUILD)/figures/skip.$${mesh%.*}.json; done
+	@for mesh in $(SKIP_MESHES); do name=$$(basename $${mesh%.*} | sed 's/^teapot$$/teapot_1k/'); \
+	  $(SKIP) $$mesh --name $$name --width 512 --height 512 -o $(BUILD)/skip/$$name \
+	    --json $(BUILD)/figures/skip.$$name.json; done
 
 figures: ## makes what is missing and collects build/figures.json and the tables of README and numerics
 	@[ -f $(BUILD)/figures/render.json ] || $(MAKE) render
@@ -111,10 +114,11 @@ waves: configure ## all signals of UNIT's bench for GTKWave: build/waves/UNIT.gh
 scenes: setup ## fetches the Stanford bunny and dragon and a small bunny: build/scenes
 	@scripts/fetch_scenes.sh $(BUILD)/scenes
 
-soak: build scenes ## real meshes on all devices, RTL against model; 100000 random pencils through raplas_unit
+soak: build scenes ## 100000 random pencils, all broken designs, real meshes on all devices
 	@ninja -C $(BUILD) -j $(JOBS) raplas_unit.generic.verilator
 	RAPLAS_CASES=100000 RAPLAS_FIGURES=$(BUILD)/figures/unit_random.json $(BUILD)/tb/raplas_unit.generic.verilator \
 	  --gtest_filter='*.FindsTheHitsOfTheDefinition'
+	tb/broken/run.py --work $(BUILD)/broken
 	@for mesh in bunny_3k bunny_69k dragon_47k; do \
 	  $(MAKE) --no-print-directory render SCENE=$$(echo $(BUILD)/scenes/$$mesh.*) PROFILE=raplas SIZE=64; done
 

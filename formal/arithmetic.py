@@ -117,6 +117,8 @@ def cases(work, rtl):
     for prim in ("generic", "xc4v"):
         found.append(Miter(f"fp_mul.{prim}", work, rtl, "fp_mul", 3, prim).case("all", prim == "generic"))
         found.append(Miter(f"fp_product.{prim}", work, rtl, "fp_product", 2, prim).case("all", prim == "generic"))
+        found.append(Miter(f"dsp_multiply_add.{prim}", work, rtl, "dsp_multiply_add", 3, prim,
+                           products="mul_pair").case("all", True))
         for mode in MODES:
             found.append(Miter(f"dsp_plane_test.mode{mode}.{prim}", work, rtl, "dsp_plane_test", 6, prim,
                                (f"MODE={mode}",), (("MODE", mode),), products="mul_pair").case("all", mode == 0))
@@ -138,7 +140,7 @@ EXPECTED = {
     **{f"fp_{'subtract' if subtract else 'add'}.guard{guard}.{prim}": 255 for guard, subtract, prim in ADDERS},
     "fp_add.cases_are_all": 1,
     "fp_add.cut": 255,
-    **{f"{unit}.{prim}": 1 for unit in ("fp_mul", "fp_product") for prim in ("generic", "xc4v")},
+    **{f"{unit}.{prim}": 1 for unit in ("fp_mul", "fp_product", "dsp_multiply_add") for prim in ("generic", "xc4v")},
     **{f"dsp_plane_test.mode{mode}.{prim}": 1 for mode in MODES for prim in ("generic", "xc4v")},
     "depth_code": 1,
     "nearest_hit": 505,

@@ -51,8 +51,8 @@ TREE_RANGE = {"unit": "tree_walk", "properties": ("tree_walk", "tree_walk_range"
 HITS = {"unit": "result_memory", "unseen": ("best_o", "host_data_o")}
 
 
-def fifo(width, depth_log2):
-    return {"unit": "fifo", "generics": {"WIDTH": width, "DEPTH_LOG2": depth_log2}}
+def fifo(width, depth_log2, unit="fifo"):
+    return {"unit": unit, "generics": {"WIDTH": width, "DEPTH_LOG2": depth_log2}}
 
 
 def decoder(rows, columns):
@@ -65,6 +65,9 @@ MODELS = (
     Model("control.fifo", "depth8", **fifo(2, 3)),
     Model("control.fifo", "pairs", **fifo(28, 4)),
     Model("control.fifo", "leaves", **fifo(59, 5)),
+    Model("control.block_fifo", "depth4", **fifo(2, 2, "block_fifo"), quick=True, cover=8),
+    Model("control.block_fifo", "depth8", **fifo(2, 3, "block_fifo")),
+    Model("control.block_fifo", "depth64", **fifo(2, 6, "block_fifo")),
     Model("control.selector", "all", "selector", quick=True, cover=10),
     Model("control.pair_issue", "all", "pair_issue", quick=True, cover=10),
     Model("control.decoder", "1x1", **decoder(1, 1), cover=6),
@@ -226,7 +229,8 @@ def cases(work, rtl):
     return made
 
 
-EXPECTED = {"control.fifo": 6, "control.selector": 3, "control.pair_issue": 2, "control.decoder": 5, "control.walk": 5,
+EXPECTED = {"control.fifo": 6, "control.block_fifo": 4, "control.selector": 3, "control.pair_issue": 2,
+            "control.decoder": 5, "control.walk": 5,
             "control.stack": 6, "control.range": 7, "control.tree_walk": 6, "control.tree_stack": 7,
             "control.tree_range": 8, "control.ram": 2, "control.result_memory": 4,
             "control.event_counters": 2, "control.unit_counters": 2, "control.pencil_control": 2,

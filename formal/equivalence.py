@@ -34,6 +34,7 @@ MULTIPLIERS = 3  # as gates; with more of them ABC doesn't come to an end
 # unit -> output -> the output that says whether it means something, or several, of which one must be 1
 MEANS = {
     "fifo": {"data_o": "valid_o"},
+    "block_fifo": {"data_o": "valid_o"},
     "plane_sphere_subunit": {"row_flags_o": "valid_o", "column_flags_o": "valid_o", "tag_o": "valid_o"},
     "ray_triangle": {"ray_o": "valid_o", "result_o": "valid_o"},
     "hit_queue": {"write_bank_o": "write_o", "ray_o": "write_o", "result_o": "write_o", "bound_o": "write_o",

@@ -16,6 +16,7 @@ use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 library raplas;
 use raplas.raplas_constants.all;
+use raplas.pair_selection_pkg.all;
 
 entity raplas_unit is
   generic (
@@ -50,6 +51,7 @@ entity raplas_unit is
     found_triangle_o : out std_ulogic_vector(ID_BITS - 1 downto 0);
     found_rows_o     : out std_ulogic_vector(MAX_ROWS - 1 downto 0);
     found_columns_o  : out std_ulogic_vector(MAX_COLUMNS - 1 downto 0);
+    found_points_o   : out std_ulogic_vector(3 * GRID_POINT_BITS - 1 downto 0);
     found_z_o        : out std_ulogic_vector(DEPTH_BITS - 1 downto 0);
     issue_o         : out std_ulogic;                                    -- pair to ray_solver
     ray_o           : out std_ulogic_vector(2 * LINE_BITS - 1 downto 0);
@@ -65,8 +67,6 @@ end entity raplas_unit;
 architecture rtl of raplas_unit is
 
   constant VECTOR_BITS : positive := 3 * FP_BITS;
-
-  subtype bank_t is std_ulogic_vector(BANK_BITS - 1 downto 0);
 
   -- registers that the host writes
   type pencils_t is array (0 to PENCIL_BANKS - 1) of pencil_word_t;
@@ -84,15 +84,14 @@ architecture rtl of raplas_unit is
   signal pencil       : pencil_t;
   signal limits       : limits_t;
   signal clear, clearing, load, walk, walk_tree, walk_idle : std_ulogic;
-  signal line         : std_ulogic_vector(5 downto 0);
+  signal line         : std_ulogic_vector(PLANE_INDEX_BITS - 1 downto 0);
   signal row_bounds   : std_ulogic_vector(MAX_ROWS * DEPTH_BITS - 1 downto 0);
 
   -- triangles
-  signal found, token, token_ready : std_ulogic;
-  signal found_triangle : std_ulogic_vector(ID_BITS - 1 downto 0);
-  signal found_rows     : std_ulogic_vector(MAX_ROWS - 1 downto 0);
-  signal found_columns  : std_ulogic_vector(MAX_COLUMNS - 1 downto 0);
-  signal found_z        : std_ulogic_vector(DEPTH_BITS - 1 downto 0);
+  signal token, token_ready : std_ulogic;
+  signal found_valid    : std_ulogic;              -- a triangle, or the end of the pencil
+  signal found_word     : queued_triangle_word_t;
+  signal found          : queued_triangle_t;
   signal triangles      : std_ulogic_vector(TRIANGLE_FIFO_DEPTH_LOG2 downto 0);
 
   signal request, vertex, issue, stall, first_hit, done, busy_any : std_ulogic;
@@ -209,6 +208,8 @@ begin
       rows_i         => pencil.rows,
       columns_i      => pencil.columns,
       slack_i        => limits.slack,
+      scale_i        => limits.scale,
+      least_i        => limits.least,
       load_i         => load,
       line_i         => line,
       walk_i         => walk_tree,
@@ -216,12 +217,11 @@ begin
       root_first_i   => scene.first,
       root_count_i   => scene.count(COUNT_BITS - 1 downto 0),
       row_bounds_i   => row_bounds,
+      token_i        => token,
+      token_ready_o  => token_ready,
       triangles_i    => triangles,
-      valid_o        => found,
-      triangle_o     => found_triangle,
-      rows_o         => found_rows,
-      columns_o      => found_columns,
-      z_o            => found_z,
+      valid_o        => found_valid,
+      word_o         => found_word,
       request_o      => request,
       vertex_o       => vertex,
       object_o       => object_o,
@@ -249,13 +249,8 @@ begin
       clear_i            => clear,
       clearing_o         => clearing,
       row_bounds_o       => row_bounds,
-      valid_i            => found,
-      triangle_i         => found_triangle,
-      triangle_rows_i    => found_rows,
-      triangle_columns_i => found_columns,
-      z_i                => found_z,
-      token_i            => token,
-      token_ready_o      => token_ready,
+      valid_i            => found_valid,
+      word_i             => found_word,
       triangles_o        => triangles,
       done_o             => done,
       done_bank_o        => done_bank,
@@ -276,11 +271,13 @@ begin
   busy_o           <= busy;
   request_o        <= request;
   vertex_o         <= vertex;
-  triangle_found_o <= found;
-  found_triangle_o <= found_triangle;
-  found_rows_o     <= found_rows;
-  found_columns_o  <= found_columns;
-  found_z_o        <= found_z;
+  found            <= unpack_queued_triangle(found_word);
+  triangle_found_o <= found_valid and not found.last;
+  found_triangle_o <= found.triangle;
+  found_rows_o     <= found.rows;
+  found_columns_o  <= found.columns;
+  found_z_o        <= found.z;
+  found_points_o   <= found_word(3 * GRID_POINT_BITS - 1 downto 0);
   issue_o          <= issue;
   stall_o          <= stall;
 

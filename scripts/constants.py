@@ -149,6 +149,11 @@ def check():
         ("FP_BITS = 1 + EXPONENT_BITS + FRACTION_BITS",
          c["FP_BITS"] == 1 + c["EXPONENT_BITS"] + c["FRACTION_BITS"]),
         ("EXPONENT_BIAS = 2^(EXPONENT_BITS - 1) - 1", c["EXPONENT_BIAS"] == 2 ** (c["EXPONENT_BITS"] - 1) - 1),
+        ("MAX_ROWS = AXIS_PLANE = GRID_PLANE - 1 = SIDE_PLANES - 2",
+         c["MAX_ROWS"] == c["AXIS_PLANE"] == c["GRID_PLANE"] - 1 == c["SIDE_PLANES"] - 2),
+        ("SIDE_PLANES <= 2^PLANE_INDEX_BITS", c["SIDE_PLANES"] <= 2 ** c["PLANE_INDEX_BITS"]),
+        ("EDGE_SETUP_STAGES = 7 + 2 MULTIPLY_ADD_STAGES",
+         c["EDGE_SETUP_STAGES"] == 7 + 2 * c["MULTIPLY_ADD_STAGES"]),
     ) + tuple((f"{d} = 2^{d}_LOG2", c[d] == 2 ** c[d + "_LOG2"])
               for d in ("STACK_DEPTH", "LEAF_FIFO_DEPTH", "PAIR_FIFO_DEPTH"))
     for rule, holds in rules:

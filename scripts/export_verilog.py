@@ -14,6 +14,7 @@ Writes into DIR (a file is left alone when its text would not change):
 Refused, exit 1 (the text is kept as DIR/U.rejected.v), because GHDL exports them silently wrong:
   a case without default   "when others" arms are dropped (ghdl issue 2041)
   a quoted wide constant   constants over 32 bits become ASCII strings (ghdl issue 2002)
+  $signed(a) >> n          shift_right of a signed value fills with zeros
   $fatal                   an assert in synthesised code, which Yosys cannot read
 --check-latch runs Yosys: any latch in the exported unit is refused too.
 """
@@ -28,6 +29,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 COMPONENTS = ROOT / "tb/sim/vcomponents.vhd"
 LATCHES = "t:$dlatch* t:$adlatch* t:$_DLATCH* t:LD*"
 WIDE = re.compile(r'"[01xXzZ]{33,}"')
+LOGICAL = re.compile(r"\$signed\([^()]*\) >> ")
 
 
 def fail(message):
@@ -97,6 +99,8 @@ def broken_constructs(text):
             yield case_line, "case without default", position
         if WIDE.search(line):
             yield number, "constant over 32 bits in quotes", position
+        if LOGICAL.search(line):
+            yield number, "signed shift that fills with zeros", position
         if "$fatal" in line:
             yield number, "assert ($fatal)", position
 

@@ -39,10 +39,11 @@ UNITS = ("fp_add", "fp_mul", "plane_sphere_tester", "plane_sphere_subunit", "nea
          "intersection_unit", "fixed_testers", "ray_solver_fabric", "hit_queue_fabric", "raplas_unit")
 SKIP_SCENES = (("Cornell box", "cornell"), ("Cornell box with teapot", "teapot"), ("bunny, floor", "bunny_floor"),
                ("dragon, floor", "dragon_floor"))
+SKIP_MESHES = ("teapot_1k", "bunny_3k", "dragon_11k", "dragon_47k", "bunny_69k", "dragon_202k", "dragon_871k")
 SKIP_STEPS = (("brute force", "brute"), ("conventional, ray by ray", "conventional"), ("paper: flat list, 4x4", "paper"),
               ("flat list, 16x16", "flat"), ("+ tree", "tree"), ("+ inherited masks", "inherited"),
               ("+ behind", "behind"), ("+ nearest first", "nearest"), ("+ hidden", "hidden"),
-              ("+ rectangles", "rectangles"), ("+ ended", "ended"), ("the clocked unit", "clocked"))
+              ("+ rectangles", "rectangles"), ("+ scan lines", "scan_lines"), ("+ ended", "ended"), ("the clocked unit", "clocked"))
 TESTS = (("spheres", "sphere_tests_per_ray"), ("vertices", "vertex_tests_per_ray"), ("pairs", "pairs_per_ray"))
 ONE_FIGURE = (("value", "value"), ("unit", "unit"), ("command", "command"))
 TABLES = {
@@ -127,10 +128,19 @@ TABLES = {
                     ("paper: either, %", "skip_paper.*.busy_percent"),
                     ("paper: plane testers, %", "skip_paper.*.testers_busy_percent"),
                     ("paper: ray-triangle unit, %", "skip_paper.*.pairs_busy_percent"),
-                    ("pencils not sent, %", "skip.*.not_sent_percent"),
-                    ("results compared", "skip.*.compared"), ("different", "skip.*.different")),
+                    ("pencils not sent, %", "skip.*.not_sent_percent")),
         "rows": tuple((f"{text}, {kind}", f"{key}.{kind}") for text, key in SKIP_SCENES
                       for kind in ("camera", "shadow")),
+        "optional": (),
+    },
+    "skip_compared": {
+        "head": "scene",
+        "columns": (("triangles", "skip.*.triangles"),
+                    *((f"{kind}: {text}", f"skip.*.{kind}.{key}") for kind in ("camera", "shadow")
+                      for text, key in (("pencils", "pencils"), ("walked", "walked"), ("results compared", "compared"),
+                                        ("different", "different")))),
+        "rows": (*((f"{text}, 1024x1024", key) for text, key in SKIP_SCENES),
+                 *((f"`{mesh}`, 512x512", mesh) for mesh in ("cornell_box", *SKIP_MESHES))),
         "optional": (),
     },
     "skip_rtl": {
@@ -149,8 +159,7 @@ TABLES = {
         "columns": (("triangles", "skip.*.triangles"),
                     *((f"{kind}: {text}", f"skip.*.{kind}.{key}") for kind in ("camera", "shadow")
                       for text, key in (("rays/clock", "rays_per_clock"), *TESTS))),
-        "rows": tuple((f"`{mesh}`", mesh) for mesh in ("bunny_3k", "dragon_11k", "dragon_47k", "bunny_69k",
-                                                      "dragon_202k", "dragon_871k")),
+        "rows": tuple((f"`{mesh}`", mesh) for mesh in SKIP_MESHES),
         "optional": (),
     },
     **{f"skip_{scene}": {

@@ -39,9 +39,12 @@ DSP48 = {
     "fp_mul": 2,
     "plane_sphere_tester": 12,
     "plane_sphere_subunit": 96,
-    "fixed_testers": 136,
+    "fixed_testers": 144,
     "nearest_hit": 4,
     "depth_quotient": 1,
+    "vertex_grid": 2,
+    "edge_setup": 2,
+    "row_interval": 3,
     "ray_solver": 66,
     "ray_triangle": 70,
     "hit_queue": 4,
@@ -50,7 +53,7 @@ DSP48 = {
     "ray_solver_fabric": 33,
     "hit_queue_fabric": 2,
     "intersection_unit": 166,
-    "raplas_unit": 172,
+    "raplas_unit": 187,
 }
 FABRIC = ("EXPONENT_DSP=false",)  # exponents in fabric
 VARIANTS = {f"{unit}_fabric": (unit, FABRIC) for unit in ("fp_add", "fp_mul", "ray_solver", "hit_queue")}

@@ -109,6 +109,20 @@ class FixedScenes {
     }
     memory.planes.near = plane(0, 0, sign);
     memory.planes.depth = memory.planes.near;
+    // lines at +-width / 2 of a depth of 1, seen from their middle
+    const auto grid_plane = [&](std::size_t axis, std::uint32_t count) {
+      const double lines = count / width;
+      FixedPlane p;
+      p.normal[axis] = fixed(std::ldexp(lines, -kGridScale));
+      p.normal[2] = fixed(std::ldexp(sign * (0.5 * (count - 1.0) - kGridOrigin), -kGridScale));
+      p.offset = -plane_sum({p.normal, 0}, {fixed(o[0]), fixed(o[1]), fixed(sign * o[2])});
+      return p;
+    };
+    memory.planes.across = grid_plane(0, columns);
+    memory.planes.down = grid_plane(1, rows);
+    memory.limits.scale = below(8) == 0 ? below(kNoGrid + 1) : kGridScale + 2;
+    memory.limits.least = below(4) == 0 ? below(kNoGrid + 1) : 14;
+    memory.limits.error = below(1U << kGridErrorBits);
     memory.limits.slack = below(4) == 0 ? below(300) : below(6);
     memory.limits.any_hit = below(3) == 0;
     memory.limits.far =
@@ -142,6 +156,9 @@ class FixedScenes {
   }
 
  private:
+  /// More than the most lines of a grid in a unit, as a power of two.
+  static constexpr int kGridScale = 11;
+
   struct Subtree {
     NodeWord node;
     std::vector<FixedVec3> points;

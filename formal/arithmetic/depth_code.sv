@@ -1,12 +1,12 @@
 // depth_code against its definition, for all distances below 2^40: 0 below 2^14; else the place of the top bit and
-// the 10 bits below it, less the margin of 4; and that code stands for no more than the distance.
+// the 10 bits below it; and that code stands for no more than the distance. z_o is less by the margin of 4.
 module miter (
   input clk_i, now,
   input signed [47:0] d,
   output bad
 );
-  wire [14:0] z;
-  depth_code unit (.clk_i(clk_i), .d_i(d), .z_o(z));
+  wire [14:0] z, code_seen;
+  depth_code unit (.clk_i(clk_i), .d_i(d), .code_o(code_seen), .z_o(z));
   reg [48:0] line1, line2;
   always @(posedge clk_i) begin
     line1 <= {now, d};
@@ -25,5 +25,5 @@ module miter (
   wire [14:0] defined = code < 1024 ? 0 : code - 4;
   wire [39:0] stands_for = code < 1024 ? 0 : {29'd0, 1'b1, code[9:0]} << (code[14:10] + 3);
   wire below = code < 1024 || stands_for <= x[39:0];
-  assign bad = assumed && (z != defined || !below);
+  assign bad = assumed && (code_seen != code || z != defined || !below);
 endmodule

@@ -1,5 +1,6 @@
 // pencil_control: every bank that is started while it isn't busy has exactly one turn, in the order of the
-// starts: its planes, each line once, row, column, near, depth; then, when nothing is being cleared, its walk;
+// starts: its planes, each index once: as many lines as the longer side has, then the two planes behind them of
+// each side; then, when nothing is being cleared, its walk;
 // when that is over, its token, until it is taken. A bank is busy from its start until its token is done.
 // Two pencils never have a turn at the same time, and the queue of banks never overflows.
 //
@@ -58,10 +59,9 @@ end
 reg [5:0] given = 0;
 reg       loaded = 0, walked = 0, over = 0;
 reg [4:0] rows, columns;
-wire [5:0] wanted = given < rows ? given
-                    : given < rows + columns ? MAX_ROWS + given - rows
-                    : MAX_ROWS + MAX_COLUMNS + given - rows - columns;
-wire all_given = given == rows + columns + 1;
+wire [4:0] lines = rows > columns ? rows : columns;
+wire [5:0] wanted = given < lines ? given : AXIS_PLANE + given - lines;
+wire all_given = given == lines + 1;
 always @(posedge clk_i) begin
   if (take || rst_i) begin
     given  <= 0;
@@ -95,7 +95,7 @@ always @* begin
     one: assert ((turn & (turn - 1)) == 0);
     busy_bits: assert (busy_o == (queued | turn | ended));
     loads: assert (load_o == (turn != 0 && !loaded));
-    lines: assert (!load_o || line_o == wanted);
+    in_order: assert (!load_o || line_o == wanted);
     clears: assert (clear_o == (load_o && given == 0));
     walks: assert (walk_o == (turn != 0 && loaded && !walked && !clearing_i));
     tokens: assert (token_o == (turn != 0 && over));
@@ -108,7 +108,7 @@ always @* begin
                                  | (waits > 2 ? 1 << q2 : 0) | (waits > 3 ? 1 << q3 : 0)));
     order: assert (!over || walked);
     order_2: assert (!walked || loaded);
-    count: assert (turn == 0 || loaded || given <= rows + columns + 1 || given == 0);
+    count: assert (turn == 0 || loaded || given <= lines + 1 || given == 0);
     state: assert (turn == 0 ? {r_loading, r_settling, r_walking, r_token} == 0
                              : {r_loading, r_settling, r_walking, r_token}
                                == {!loaded, loaded && !walked, walked && !over, over});
@@ -118,10 +118,10 @@ end
 
 // reg_t, from its first field
 wire r_loading, r_clear, r_settling, r_walking, r_token;
-wire [5:0] r_line;
+wire [PLANE_INDEX_BITS-1:0] r_line;
 wire [BANK_BITS-1:0] r_bank;
 wire [PENCIL_BANKS-1:0] r_busy;
 assign {r_busy, r_bank, r_line, r_token, r_walking, r_settling, r_clear, r_loading} = r;
 generate
-  if ($bits(r) != 5 + 6 + BANK_BITS + PENCIL_BANKS || PENCIL_BANKS != 4) layout_of_reg_t_is_another refused();
+  if ($bits(r) != 5 + PLANE_INDEX_BITS + BANK_BITS + PENCIL_BANKS || PENCIL_BANKS != 4) layout_of_reg_t_is_another refused();
 endgenerate

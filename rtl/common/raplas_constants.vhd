@@ -57,6 +57,8 @@ package raplas_constants is
   constant COORDINATE_FRACTION : natural := 17;
   -- fixed point: bits of a plane's offset (signed); LSB 2^-34
   constant OFFSET_BITS : natural := 36;
+  -- fixed point: bits of n.x + p, radius added or taken off (signed); LSB 2^-34
+  constant PLANE_SUM_BITS : natural := 40;
   -- latency of dsp_plane_test, clocks from its first operand
   constant PLANE_TEST_STAGES : natural := 6;
   -- depth code: bits of the exponent; code 0 stands for 0
@@ -67,6 +69,32 @@ package raplas_constants is
   constant DEPTH_BITS : natural := 15;
   -- depth code: bias of the exponent
   constant DEPTH_BIAS : natural := 21;
+  -- scan lines: bits of a vertex' row or column on the pencil's grid (signed)
+  constant GRID_BITS : natural := 16;
+  -- scan lines: fraction bits of these
+  constant GRID_FRACTION : natural := 5;
+  -- scan lines: bits of the two exponents in the grid's register
+  constant GRID_EXPONENT_BITS : natural := 5;
+  -- scan lines: bits of the grid's error class
+  constant GRID_ERROR_BITS : natural := 2;
+  -- scan lines: bits of a reciprocal of 1 .. 2, whose index has DEPTH_FRACTION_BITS
+  constant RECIPROCAL_BITS : natural := 17;
+  -- scan lines: bits of an edge's slope, columns a row (signed)
+  constant SLOPE_BITS : natural := 18;
+  -- scan lines: fraction bits of a slope
+  constant SLOPE_FRACTION : natural := 12;
+  -- scan lines: bits of the column where an edge cuts line 8 (signed)
+  constant CUT_BITS : natural := 19;
+  -- scan lines: fraction bits of this column
+  constant CUT_FRACTION : natural := 7;
+  -- latency of dsp_multiply_add, clocks from its factors
+  constant MULTIPLY_ADD_STAGES : natural := 3;
+  -- latency of row_interval, clocks: MULTIPLY_ADD_STAGES + 3
+  constant ROW_INTERVAL_STAGES : natural := 6;
+  -- latency of vertex_grid, clocks: MULTIPLY_ADD_STAGES, the shift before and the slot after
+  constant VERTEX_GRID_STAGES : natural := 5;
+  -- latency of edge_setup, clocks from the one in which a word is taken
+  constant EDGE_SETUP_STAGES : natural := 13;
   -- latency of depth_code, clocks
   constant DEPTH_CODE_STAGES : natural := 2;
   -- depth code: taken off depths, for rays whose t is a little too small
@@ -77,12 +105,20 @@ package raplas_constants is
   constant PENCIL_BANKS : natural := 4;
   -- PENCIL_BANKS = 2^2
   constant BANK_BITS : natural := 2;
-  -- planes of a pencil in fixed point: 16 rows, 16 columns, near plane, depth plane
-  constant NUM_FIXED_PLANES : natural := 34;
+  -- index of the near plane on the row side, of the depth plane on the column side
+  constant AXIS_PLANE : natural := 16;
+  -- index of the down plane on the row side, of the across plane on the column side
+  constant GRID_PLANE : natural := 17;
+  -- planes of a pencil on each of the two sides: 16 lines, and those two
+  constant SIDE_PLANES : natural := 18;
+  -- bits of a plane's index on its side
+  constant PLANE_INDEX_BITS : natural := 5;
   -- entries at the top of the traversal stack among which the nearest comes first
   constant SORTED_RANGES : natural := 4;
   -- triangles that wait for the selector: 2^6
   constant TRIANGLE_FIFO_DEPTH_LOG2 : natural := 6;
+  -- triangles with their edges that wait for the selector: 2^5
+  constant CUT_FIFO_DEPTH_LOG2 : natural := 5;
   -- rows of triangles that wait for the selector's second half: 2^4
   constant ROW_FIFO_DEPTH_LOG2 : natural := 4;
   -- hits that wait for the nearest hit of their ray: 2^6
@@ -215,7 +251,7 @@ package raplas_constants is
   function unpack_vertex(word : vertex_word_t) return vertex_t;
   function pack_vertex(fields : vertex_t) return vertex_word_t;
 
-  -- n.x + p = 0, |n| <= 1; address = bank * 64 + (row, 16 + column, 32 near, 33 depth)
+  -- n.x + p = 0, |n| <= 1; address = bank * 64 + side * 32 + index
   constant FIXED_PLANE_BITS : natural := 90;
   subtype fixed_plane_word_t is std_ulogic_vector(89 downto 0);
   type fixed_plane_t is record
@@ -227,11 +263,14 @@ package raplas_constants is
   function unpack_fixed_plane(word : fixed_plane_word_t) return fixed_plane_t;
   function pack_fixed_plane(fields : fixed_plane_t) return fixed_plane_word_t;
 
-  -- register: any hit ends a ray; error bound of the planes; first depth too far; address = bank
-  constant LIMITS_BITS : natural := 34;
-  subtype limits_word_t is std_ulogic_vector(33 downto 0);
+  -- register: any hit; grid of scan lines; error of the planes; first depth too far; address = bank
+  constant LIMITS_BITS : natural := 46;
+  subtype limits_word_t is std_ulogic_vector(45 downto 0);
   type limits_t is record
     any_hit : std_ulogic;
+    scale : std_ulogic_vector(4 downto 0);
+    least : std_ulogic_vector(4 downto 0);
+    error : std_ulogic_vector(1 downto 0);
     slack : std_ulogic_vector(17 downto 0);
     far : std_ulogic_vector(14 downto 0);
   end record;
@@ -440,7 +479,10 @@ package body raplas_constants is
   function unpack_limits(word : limits_word_t) return limits_t is
     variable fields_v : limits_t;
   begin
-    fields_v.any_hit := word(33);
+    fields_v.any_hit := word(45);
+    fields_v.scale := word(44 downto 40);
+    fields_v.least := word(39 downto 35);
+    fields_v.error := word(34 downto 33);
     fields_v.slack := word(32 downto 15);
     fields_v.far := word(14 downto 0);
     return fields_v;
@@ -448,7 +490,8 @@ package body raplas_constants is
 
   function pack_limits(fields : limits_t) return limits_word_t is
   begin
-    return fields.any_hit & fields.slack & fields.far;
+    return fields.any_hit & fields.scale & fields.least & fields.error
+      & fields.slack & fields.far;
   end function pack_limits;
 
 end package body raplas_constants;

@@ -1,9 +1,9 @@
 -- ============================================================================
--- depth_code - a lower bound of a distance, as a depth code
+-- depth_code - a distance as a depth code, and a lower bound of it
 -- ----------------------------------------------------------------------------
--- d < 2^14 gives 0; else e.f, where 2^(e + 13) is d's top bit and f are the 10 bits
--- below it, less DEPTH_MARGIN. Floor: z_o never stands for more than d. Codes have the
--- order of the distances.
+-- code_o: d < 2^14 gives 0; else e.f, where 2^(e + 13) is d's top bit and f are the 10
+-- bits below it. Floor: it never stands for more than d. Codes have the order of the
+-- distances. z_o: the code less DEPTH_MARGIN, or 0.
 --   @1  top group of 4 bits that isn't 0, with the 10 bits below it
 --   @2  top bit in the group, f, margin
 -- model: cmodel/include/raplas/fixed_point.hpp     tests: tb/unit/depth_code
@@ -16,9 +16,10 @@ use raplas.raplas_constants.all;
 
 entity depth_code is
   port (
-    clk_i : in  std_ulogic;
-    d_i   : in  std_ulogic_vector(47 downto 0);  -- signed, LSB 2^-34, below 2^40
-    z_o   : out std_ulogic_vector(DEPTH_BITS - 1 downto 0)  -- DEPTH_CODE_STAGES later
+    clk_i  : in  std_ulogic;
+    d_i    : in  std_ulogic_vector(47 downto 0);  -- signed, LSB 2^-34, below 2^40
+    code_o : out std_ulogic_vector(DEPTH_BITS - 1 downto 0);  -- both DEPTH_CODE_STAGES later
+    z_o    : out std_ulogic_vector(DEPTH_BITS - 1 downto 0)
   );
 end entity depth_code;
 
@@ -60,6 +61,7 @@ begin
     variable bit_v      : unsigned(1 downto 0);
     variable fraction_v : std_ulogic_vector(F - 1 downto 0);
     variable top_v      : unsigned(DEPTH_EXPONENT_BITS - 1 downto 0);
+    variable scaled_v   : unsigned(DEPTH_BITS - 1 downto 0);  -- the code of twice d
   begin
     if rising_edge(clk_i) then
       bit_v      := "00";
@@ -70,11 +72,14 @@ begin
           fraction_v := s1.window(F + k - 1 downto k);
         end if;
       end loop;
-      top_v := s1.group_no & bit_v;
+      top_v    := s1.group_no & bit_v;
+      scaled_v := top_v & unsigned(fraction_v);
       if s1.positive = '0' or top_v < LEAST then
-        z_o <= (others => '0');
+        code_o <= (others => '0');
+        z_o    <= (others => '0');
       else
-        z_o <= std_ulogic_vector((top_v & unsigned(fraction_v)) - TAKEN);
+        code_o <= std_ulogic_vector(scaled_v - 2 ** F);
+        z_o    <= std_ulogic_vector(scaled_v - TAKEN);
       end if;
     end if;
   end process code_p;

@@ -1,7 +1,8 @@
 -- ============================================================================
 -- pair_half - from triangles and their rectangles to the hits of the rays
 -- ----------------------------------------------------------------------------
---   triangle queue -> row_selector -> row queue -> column_selector
+--   triangle queue -> edge_setup -> queue of cut triangles
+--     -> row_selector -> row queue -> column_selector
 --   @0   pair: addresses of its ray and triangle
 --   @2   their words                             Ray, Triangle memory
 --   @28  hit? t', d, u', v'                      ray_solver; depth_quotient
@@ -15,6 +16,7 @@ use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 library raplas;
 use raplas.raplas_constants.all;
+use raplas.pair_selection_pkg.all;
 
 entity pair_half is
   generic (
@@ -44,12 +46,7 @@ entity pair_half is
     row_bounds_o     : out std_ulogic_vector(MAX_ROWS * DEPTH_BITS - 1 downto 0);   -- of its rays
     -- triangles of that pencil, and its end
     valid_i          : in  std_ulogic;
-    triangle_i       : in  std_ulogic_vector(ID_BITS - 1 downto 0);
-    triangle_rows_i    : in std_ulogic_vector(MAX_ROWS - 1 downto 0);
-    triangle_columns_i : in std_ulogic_vector(MAX_COLUMNS - 1 downto 0);
-    z_i              : in  std_ulogic_vector(DEPTH_BITS - 1 downto 0);
-    token_i          : in  std_ulogic;                              -- not together with valid_i
-    token_ready_o    : out std_ulogic;
+    word_i           : in  queued_triangle_word_t;
     triangles_o      : out std_ulogic_vector(TRIANGLE_FIFO_DEPTH_LOG2 downto 0);    -- in the queue
     -- the end of a pencil: all its results are in place
     done_o           : out std_ulogic;
@@ -70,28 +67,27 @@ end entity pair_half;
 architecture rtl of pair_half is
 
   constant SOLVER_STAGES : positive := 2 * MUL_STAGES + 5 * ADD_STAGES;   -- 26
-  constant WORD_BITS : positive := 1 + BANK_BITS + ID_BITS + COUNT_BITS + DEPTH_BITS
-                                   + MAX_ROWS + MAX_COLUMNS;
-  constant ROW_BITS  : positive := 1 + BANK_BITS + ID_BITS + DEPTH_BITS + LINE_BITS + MAX_COLUMNS;
   constant PAIR_BITS : positive := BANK_BITS + ID_BITS + DEPTH_BITS + 2 * LINE_BITS;
   constant VECTOR_BITS : positive := 3 * FP_BITS;
   constant NO_BOUND  : positive := 2 ** DEPTH_BITS - 1;
 
-  subtype bank_t is std_ulogic_vector(BANK_BITS - 1 downto 0);
   subtype ray_id_t is std_ulogic_vector(2 * LINE_BITS - 1 downto 0);
-  subtype depth_t is std_ulogic_vector(DEPTH_BITS - 1 downto 0);
   subtype id_t is std_ulogic_vector(ID_BITS - 1 downto 0);
 
   -- triangle queue to column_selector
-  signal write_word, queue_ready, word_valid, word_ready : std_ulogic;
-  signal word_in, word_out     : std_ulogic_vector(WORD_BITS - 1 downto 0);
+  signal word_valid, word_ready : std_ulogic;
+  signal word_out              : queued_triangle_word_t;
   signal front_bank            : bank_t;
-  signal front_bounds, bounds  : std_ulogic_vector(MAX_ROWS * DEPTH_BITS - 1 downto 0);
+  signal front_bounds, bounds  : line_bounds_t;
+  signal front_limits          : limits_t;
+  signal cut_write, cut_valid, cut_ready : std_ulogic;
+  signal cut_in, cut_out       : cut_triangle_word_t;
+  signal cut_count             : std_ulogic_vector(CUT_FIFO_DEPTH_LOG2 downto 0);
   signal read                  : std_ulogic;
   signal read_bank             : bank_t;
-  signal read_row              : std_ulogic_vector(LINE_BITS - 1 downto 0);
+  signal read_row              : line_t;
   signal row_write, row_valid, row_ready : std_ulogic;
-  signal row_in, row_out       : std_ulogic_vector(ROW_BITS - 1 downto 0);
+  signal row_in, row_out       : queued_row_word_t;
   signal row_count             : std_ulogic_vector(ROW_FIFO_DEPTH_LOG2 downto 0);
   -- pairs
   signal issue, last, stall    : std_ulogic;
@@ -126,32 +122,21 @@ begin
   -- --------------------------------------------------------------------------
   -- from triangles to pairs
   -- --------------------------------------------------------------------------
-  word_p : process (token_i, walk_bank_i, triangle_i, z_i, triangle_rows_i, triangle_columns_i)
-    variable count_v : unsigned(COUNT_BITS - 1 downto 0);
-  begin
-    count_v := to_unsigned(1, COUNT_BITS);
-    word_in <= token_i & walk_bank_i & triangle_i & std_ulogic_vector(count_v) & z_i
-      & triangle_rows_i & triangle_columns_i;
-  end process word_p;
-
-  write_word    <= valid_i or token_i;
-  token_ready_o <= queue_ready;
-
-  triangle_fifo_i : entity raplas.fifo
-    generic map (WIDTH => WORD_BITS, DEPTH_LOG2 => TRIANGLE_FIFO_DEPTH_LOG2)
+  triangle_fifo_i : entity raplas.block_fifo
+    generic map (WIDTH => QUEUED_TRIANGLE_BITS, DEPTH_LOG2 => TRIANGLE_FIFO_DEPTH_LOG2)
     port map (
       clk_i   => clk_i,
       rst_i   => rst_i,
-      write_i => write_word,
-      data_i  => word_in,
+      write_i => valid_i,
+      data_i  => word_i,
       read_i  => word_ready,
       data_o  => word_out,
       valid_o => word_valid,
-      ready_o => queue_ready,
+      ready_o => open,
       count_o => triangles_o
     );
 
-  rows_e : entity raplas.row_selector
+  edges_e : entity raplas.edge_setup
     port map (
       clk_i        => clk_i,
       rst_i        => rst_i,
@@ -160,17 +145,44 @@ begin
       ready_o      => word_ready,
       pair_bank_o  => front_bank,
       row_bounds_i => front_bounds,
-      read_o       => read,
-      bank_o       => read_bank,
-      row_o        => read_row,
-      bounds_i     => bounds,
-      row_valid_o  => row_write,
-      row_word_o   => row_in,
-      row_count_i  => row_count
+      error_i      => front_limits.error,
+      valid_o      => cut_write,
+      word_o       => cut_in,
+      count_i      => cut_count
+    );
+
+  cut_fifo_i : entity raplas.block_fifo
+    generic map (WIDTH => CUT_TRIANGLE_BITS, DEPTH_LOG2 => CUT_FIFO_DEPTH_LOG2)
+    port map (
+      clk_i   => clk_i,
+      rst_i   => rst_i,
+      write_i => cut_write,
+      data_i  => cut_in,
+      read_i  => cut_ready,
+      data_o  => cut_out,
+      valid_o => cut_valid,
+      ready_o => open,
+      count_o => cut_count
+    );
+
+  rows_e : entity raplas.row_selector
+    port map (
+      clk_i       => clk_i,
+      rst_i       => rst_i,
+      valid_i     => cut_valid,
+      word_i      => cut_out,
+      ready_o     => cut_ready,
+      read_o      => read,
+      bank_o      => read_bank,
+      row_o       => read_row,
+      bounds_i    => bounds,
+      row_valid_o => row_write,
+      row_word_o  => row_in,
+      row_count_i => row_count
     );
 
   row_fifo_i : entity raplas.fifo
-    generic map (WIDTH => ROW_BITS, DEPTH_LOG2 => ROW_FIFO_DEPTH_LOG2)
+    generic map (WIDTH => QUEUED_ROW_BITS, DEPTH_LOG2 => ROW_FIFO_DEPTH_LOG2)
     port map (
       clk_i   => clk_i,
       rst_i   => rst_i,
@@ -271,16 +283,20 @@ begin
   bank_s2  <= pair_s2(PAIR_BITS - 1 downto PAIR_BITS - BANK_BITS);
   bank_s28 <= pair_s28(PAIR_BITS - 1 downto PAIR_BITS - BANK_BITS);
 
-  registers_p : process (origins_i, limits_i, bank_s2, bank_s28)
+  registers_p : process (origins_i, limits_i, front_bank, bank_s2, bank_s28)
   begin
     origin <= origins_i(VECTOR_BITS - 1 downto 0);
     limits <= unpack_limits(limits_i(LIMITS_BITS - 1 downto 0));
+    front_limits <= unpack_limits(limits_i(LIMITS_BITS - 1 downto 0));
     for k in 1 to PENCIL_BANKS - 1 loop
       if unsigned(bank_s2) = k then
         origin <= origins_i((k + 1) * VECTOR_BITS - 1 downto k * VECTOR_BITS);
       end if;
       if unsigned(bank_s28) = k then
         limits <= unpack_limits(limits_i((k + 1) * LIMITS_BITS - 1 downto k * LIMITS_BITS));
+      end if;
+      if unsigned(front_bank) = k then
+        front_limits <= unpack_limits(limits_i((k + 1) * LIMITS_BITS - 1 downto k * LIMITS_BITS));
       end if;
     end loop;
   end process registers_p;

@@ -22,19 +22,58 @@ package pair_selection_pkg is
   subtype line_mask_t is std_ulogic_vector(NUM_LINES - 1 downto 0);
   subtype line_bounds_t is std_ulogic_vector(NUM_LINES * DEPTH_BITS - 1 downto 0);
 
-  -- a range of triangles that a pencil meets, or the end of a pencil
+  -- a vertex on the pencil's grid of lines: numbers from the middle, GRID_FRACTION fraction bits
+  type grid_point_t is record
+    known  : std_ulogic;                                   -- else the others don't count
+    aside : std_ulogic_vector(GRID_BITS - 1 downto 0);    -- signed
+    down   : std_ulogic_vector(GRID_BITS - 1 downto 0);    -- signed
+  end record;
+  constant GRID_POINT_BITS : positive := 1 + 2 * GRID_BITS;
+  type grid_points_t is array (0 to 2) of grid_point_t;    -- of slots 0, 1, 2
+
+  -- a triangle that a pencil meets, or the end of a pencil
   type queued_triangle_t is record
-    last    : std_ulogic;                                  -- end of the pencil: only bank counts
-    bank    : bank_t;
-    first   : std_ulogic_vector(ID_BITS - 1 downto 0);
-    count   : std_ulogic_vector(COUNT_BITS - 1 downto 0);  -- 1 ..
-    z       : depth_t;                                     -- none of them is nearer
-    rows    : line_mask_t;
-    columns : line_mask_t;
+    last     : std_ulogic;                                 -- end of the pencil: only bank counts
+    bank     : bank_t;
+    triangle : std_ulogic_vector(ID_BITS - 1 downto 0);
+    z        : depth_t;                                    -- it is not nearer
+    rows     : line_mask_t;
+    columns  : line_mask_t;
+    points   : grid_points_t;
   end record;
   constant QUEUED_TRIANGLE_BITS : positive :=
-    1 + BANK_BITS + ID_BITS + COUNT_BITS + DEPTH_BITS + 2 * NUM_LINES;
+    1 + BANK_BITS + ID_BITS + DEPTH_BITS + 2 * NUM_LINES + 3 * GRID_POINT_BITS;
   subtype queued_triangle_word_t is std_ulogic_vector(QUEUED_TRIANGLE_BITS - 1 downto 0);
+
+  -- the line through an edge: rows that the edge may reach, and where it cuts them
+  constant CUT_LINE_BITS : positive := LINE_BITS + 1;
+  constant MARGIN_BITS   : positive := SLOPE_BITS - 1;
+  type edge_cut_t is record
+    open_cut : std_ulogic;                                     -- anywhere: last three don't count
+    first    : std_ulogic_vector(CUT_LINE_BITS - 1 downto 0);  -- signed, from the middle line
+    last     : std_ulogic_vector(CUT_LINE_BITS - 1 downto 0);  -- signed
+    at       : std_ulogic_vector(CUT_BITS - 1 downto 0);       -- signed: column on the middle line
+    slope    : std_ulogic_vector(SLOPE_BITS - 1 downto 0);     -- signed
+    margin   : std_ulogic_vector(MARGIN_BITS - 1 downto 0);
+  end record;
+  constant EDGE_CUT_BITS : positive := 1 + 2 * CUT_LINE_BITS + CUT_BITS + SLOPE_BITS + MARGIN_BITS;
+  type edge_cuts_t is array (0 to 2) of edge_cut_t;
+  subtype edge_cuts_word_t is std_ulogic_vector(3 * EDGE_CUT_BITS - 1 downto 0);
+
+  -- a triangle with its edges, or the end of a pencil
+  type cut_triangle_t is record
+    last     : std_ulogic;                                 -- end of the pencil: only bank counts
+    bank     : bank_t;
+    triangle : std_ulogic_vector(ID_BITS - 1 downto 0);
+    z        : depth_t;
+    rows     : line_mask_t;
+    columns  : line_mask_t;
+    whole    : std_ulogic;                                 -- all columns of a row: cuts don't count
+    cuts     : edge_cuts_t;
+  end record;
+  constant CUT_TRIANGLE_BITS : positive :=
+    1 + BANK_BITS + ID_BITS + DEPTH_BITS + 2 * NUM_LINES + 1 + 3 * EDGE_CUT_BITS;
+  subtype cut_triangle_word_t is std_ulogic_vector(CUT_TRIANGLE_BITS - 1 downto 0);
 
   -- the rays of one row that are to be tested against a triangle, or the end of a pencil
   type queued_row_t is record
@@ -51,6 +90,9 @@ package pair_selection_pkg is
 
   function unpack_queued_triangle(word : queued_triangle_word_t) return queued_triangle_t;
   function pack_queued_triangle(fields : queued_triangle_t) return queued_triangle_word_t;
+  function unpack_edge_cuts(word : edge_cuts_word_t) return edge_cuts_t;
+  function unpack_cut_triangle(word : cut_triangle_word_t) return cut_triangle_t;
+  function pack_cut_triangle(fields : cut_triangle_t) return cut_triangle_word_t;
   function unpack_queued_row(word : queued_row_word_t) return queued_row_t;
   function pack_queued_row(fields : queued_row_t) return queued_row_word_t;
 
@@ -65,27 +107,91 @@ end package pair_selection_pkg;
 package body pair_selection_pkg is
 
   function unpack_queued_triangle(word : queued_triangle_word_t) return queued_triangle_t is
-    constant Z_LSB     : natural := 2 * NUM_LINES;
-    constant COUNT_LSB : natural := Z_LSB + DEPTH_BITS;
-    constant FIRST_LSB : natural := COUNT_LSB + COUNT_BITS;
-    constant BANK_LSB  : natural := FIRST_LSB + ID_BITS;
+    constant COLUMNS_LSB  : natural := 3 * GRID_POINT_BITS;
+    constant ROWS_LSB     : natural := COLUMNS_LSB + NUM_LINES;
+    constant Z_LSB        : natural := ROWS_LSB + NUM_LINES;
+    constant TRIANGLE_LSB : natural := Z_LSB + DEPTH_BITS;
+    constant BANK_LSB     : natural := TRIANGLE_LSB + ID_BITS;
     variable fields_v : queued_triangle_t;
+    variable point_v  : std_ulogic_vector(GRID_POINT_BITS - 1 downto 0);
   begin
-    fields_v.last    := word(BANK_LSB + BANK_BITS);
-    fields_v.bank    := word(BANK_LSB + BANK_BITS - 1 downto BANK_LSB);
-    fields_v.first   := word(BANK_LSB - 1 downto FIRST_LSB);
-    fields_v.count   := word(FIRST_LSB - 1 downto COUNT_LSB);
-    fields_v.z       := word(COUNT_LSB - 1 downto Z_LSB);
-    fields_v.rows    := word(Z_LSB - 1 downto NUM_LINES);
-    fields_v.columns := word(NUM_LINES - 1 downto 0);
+    fields_v.last     := word(BANK_LSB + BANK_BITS);
+    fields_v.bank     := word(BANK_LSB + BANK_BITS - 1 downto BANK_LSB);
+    fields_v.triangle := word(BANK_LSB - 1 downto TRIANGLE_LSB);
+    fields_v.z        := word(TRIANGLE_LSB - 1 downto Z_LSB);
+    fields_v.rows     := word(Z_LSB - 1 downto ROWS_LSB);
+    fields_v.columns  := word(ROWS_LSB - 1 downto COLUMNS_LSB);
+    for k in grid_points_t'range loop
+      point_v := word((3 - k) * GRID_POINT_BITS - 1 downto (2 - k) * GRID_POINT_BITS);
+      fields_v.points(k).known  := point_v(2 * GRID_BITS);
+      fields_v.points(k).aside := point_v(2 * GRID_BITS - 1 downto GRID_BITS);
+      fields_v.points(k).down   := point_v(GRID_BITS - 1 downto 0);
+    end loop;
     return fields_v;
   end function unpack_queued_triangle;
 
   function pack_queued_triangle(fields : queued_triangle_t) return queued_triangle_word_t is
+    variable points_v : std_ulogic_vector(3 * GRID_POINT_BITS - 1 downto 0);
   begin
-    return fields.last & fields.bank & fields.first & fields.count & fields.z & fields.rows
-      & fields.columns;
+    for k in grid_points_t'range loop
+      points_v((3 - k) * GRID_POINT_BITS - 1 downto (2 - k) * GRID_POINT_BITS) :=
+        fields.points(k).known & fields.points(k).aside & fields.points(k).down;
+    end loop;
+    return fields.last & fields.bank & fields.triangle & fields.z & fields.rows & fields.columns
+      & points_v;
   end function pack_queued_triangle;
+
+  function unpack_edge_cuts(word : edge_cuts_word_t) return edge_cuts_t is
+    constant SLOPE_LSB : natural := MARGIN_BITS;
+    constant AT_LSB    : natural := SLOPE_LSB + SLOPE_BITS;
+    constant LAST_LSB  : natural := AT_LSB + CUT_BITS;
+    constant FIRST_LSB : natural := LAST_LSB + CUT_LINE_BITS;
+    variable cuts_v : edge_cuts_t;
+    variable cut_v  : std_ulogic_vector(EDGE_CUT_BITS - 1 downto 0);
+  begin
+    for k in edge_cuts_t'range loop
+      cut_v := word((3 - k) * EDGE_CUT_BITS - 1 downto (2 - k) * EDGE_CUT_BITS);
+      cuts_v(k).open_cut := cut_v(EDGE_CUT_BITS - 1);
+      cuts_v(k).first    := cut_v(EDGE_CUT_BITS - 2 downto FIRST_LSB);
+      cuts_v(k).last     := cut_v(FIRST_LSB - 1 downto LAST_LSB);
+      cuts_v(k).at       := cut_v(LAST_LSB - 1 downto AT_LSB);
+      cuts_v(k).slope    := cut_v(AT_LSB - 1 downto SLOPE_LSB);
+      cuts_v(k).margin   := cut_v(SLOPE_LSB - 1 downto 0);
+    end loop;
+    return cuts_v;
+  end function unpack_edge_cuts;
+
+  function unpack_cut_triangle(word : cut_triangle_word_t) return cut_triangle_t is
+    constant WHOLE_LSB    : natural := 3 * EDGE_CUT_BITS;
+    constant COLUMNS_LSB  : natural := WHOLE_LSB + 1;
+    constant ROWS_LSB     : natural := COLUMNS_LSB + NUM_LINES;
+    constant Z_LSB        : natural := ROWS_LSB + NUM_LINES;
+    constant TRIANGLE_LSB : natural := Z_LSB + DEPTH_BITS;
+    constant BANK_LSB     : natural := TRIANGLE_LSB + ID_BITS;
+    variable fields_v : cut_triangle_t;
+  begin
+    fields_v.last     := word(BANK_LSB + BANK_BITS);
+    fields_v.bank     := word(BANK_LSB + BANK_BITS - 1 downto BANK_LSB);
+    fields_v.triangle := word(BANK_LSB - 1 downto TRIANGLE_LSB);
+    fields_v.z        := word(TRIANGLE_LSB - 1 downto Z_LSB);
+    fields_v.rows     := word(Z_LSB - 1 downto ROWS_LSB);
+    fields_v.columns  := word(ROWS_LSB - 1 downto COLUMNS_LSB);
+    fields_v.whole    := word(WHOLE_LSB);
+    fields_v.cuts     := unpack_edge_cuts(word(WHOLE_LSB - 1 downto 0));
+    return fields_v;
+  end function unpack_cut_triangle;
+
+  function pack_cut_triangle(fields : cut_triangle_t) return cut_triangle_word_t is
+    variable cuts_v : std_ulogic_vector(3 * EDGE_CUT_BITS - 1 downto 0);
+  begin
+    for k in edge_cuts_t'range loop
+      cuts_v((3 - k) * EDGE_CUT_BITS - 1 downto (2 - k) * EDGE_CUT_BITS) :=
+        fields.cuts(k).open_cut & fields.cuts(k).first & fields.cuts(k).last & fields.cuts(k).at
+        & fields.cuts(k).slope & fields.cuts(k).margin;
+    end loop;
+    return fields.last & fields.bank & fields.triangle & fields.z & fields.rows & fields.columns
+      & fields.whole & cuts_v;
+  end function pack_cut_triangle;
 
   function unpack_queued_row(word : queued_row_word_t) return queued_row_t is
     constant ROW_LSB      : natural := NUM_LINES;

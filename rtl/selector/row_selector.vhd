@@ -1,14 +1,14 @@
 -- ============================================================================
 -- row_selector - the rows of a triangle in which it matters to a ray
 -- ----------------------------------------------------------------------------
---   @0  a row that is left is read from ray_bounds
---   @2  its rays' bounds                                   MEMORY_STAGES
---   @3  the columns whose ray may have a nearer hit; a row without any is dropped
--- On taking a word: rows that cannot matter by their row bound are left out.
--- Triangles in the outer loop, rows inside, lowest first, one a clock; the next
--- word is taken in the clock of the last row. A word without a row costs a clock.
--- The end of a pencil passes in order. A row goes only if the row queue has room
--- for it behind all that can be under way.
+--   @0  a row that is left goes into row_interval
+--   @4  it is read from ray_bounds                         READ_STAGES
+--   @6  its columns between the edges; its rays' bounds    ROW_INTERVAL_STAGES
+--   @7  the columns whose ray may have a nearer hit; a row without any is dropped
+-- Lowest row first, one a clock. The word stays at the front of its queue until its
+-- last row goes, and a word without a row costs a clock. The end of a pencil passes
+-- in order. A row goes only if the row queue has room for it behind all that can be
+-- under way.
 -- model: cmodel/include/raplas/pair_selection.hpp     tests: tb/unit/row_selector
 -- ============================================================================
 library ieee;
@@ -20,27 +20,27 @@ use raplas.pair_selection_pkg.all;
 
 entity row_selector is
   port (
-    clk_i        : in  std_ulogic;
-    rst_i        : in  std_ulogic;
-    valid_i      : in  std_ulogic;                 -- front of the queue of triangles
-    word_i       : in  queued_triangle_word_t;
-    ready_o      : out std_ulogic;                 -- takes it in this clock
-    pair_bank_o  : out bank_t;                     -- of the word at the front ...
-    row_bounds_i : in  line_bounds_t;              -- ... its row bounds, in the same clock
-    read_o       : out std_ulogic;                 -- a row is asked for ...
-    bank_o       : out bank_t;
-    row_o        : out line_t;
-    bounds_i     : in  line_bounds_t;              -- ... its rays' bounds, MEMORY_STAGES later
-    row_valid_o  : out std_ulogic;                 -- into the queue of rows
-    row_word_o   : out queued_row_word_t;
-    row_count_i  : in  std_ulogic_vector(ROW_FIFO_DEPTH_LOG2 downto 0)   -- words in it
+    clk_i       : in  std_ulogic;
+    rst_i       : in  std_ulogic;
+    valid_i     : in  std_ulogic;            -- front of the queue of cut triangles
+    word_i      : in  cut_triangle_word_t;
+    ready_o     : out std_ulogic;            -- takes it in this clock; 0 while valid_i is 0
+    read_o      : out std_ulogic;            -- a row is asked for ...
+    bank_o      : out bank_t;
+    row_o       : out line_t;
+    bounds_i    : in  line_bounds_t;         -- ... its rays' bounds, MEMORY_STAGES later
+    row_valid_o : out std_ulogic;            -- into the queue of rows
+    row_word_o  : out queued_row_word_t;
+    row_count_i : in  std_ulogic_vector(ROW_FIFO_DEPTH_LOG2 downto 0)   -- words in it
   );
 end entity row_selector;
 
 architecture rtl of row_selector is
 
-  constant ROW_STAGES : positive := MEMORY_STAGES + 1;   -- from a row's read to its write
-  constant NO_LINES   : line_mask_t := (others => '0');
+  constant ROW_STAGES  : positive := ROW_INTERVAL_STAGES + 1;   -- from a row's start to its write
+  constant READ_STAGES : positive := ROW_INTERVAL_STAGES - MEMORY_STAGES;
+  constant NO_LINES    : line_mask_t := (others => '0');
+  constant FIRST_LINE  : line_mask_t := (0 => '1', others => '0');
 
   type stage_t is record
     valid : std_ulogic;
@@ -49,86 +49,77 @@ architecture rtl of row_selector is
   type stages_t is array (1 to ROW_STAGES) of stage_t;   -- k clocks old
 
   type reg_t is record
-    triangle  : queued_triangle_t;                -- first is the next one, count with it
-    rows_left : line_mask_t;                      -- of this triangle; 0: nothing to do
+    fresh     : std_ulogic;     -- no row of the front word has gone
+    rows_left : line_mask_t;    -- of the front word; if fresh, all
     s         : stages_t;
   end record;
 
-  signal r     : reg_t;
-  signal rin   : reg_t;
-  signal front : queued_triangle_t;
+  signal r        : reg_t;
+  signal rin      : reg_t;
+  signal front    : cut_triangle_t;
+  signal rows     : line_mask_t;   -- those left of the front word
+  signal row      : line_t;        -- the lowest
+  signal interval : line_mask_t;   -- @6
 
 begin
 
-  front       <= unpack_queued_triangle(word_i);
-  pair_bank_o <= front.bank;
-  bank_o      <= r.triangle.bank;
-  row_o       <= lowest(r.rows_left);
+  front <= unpack_cut_triangle(word_i);
+  rows  <= FIRST_LINE when front.last = '1' else   -- goes as one row
+           front.rows when r.fresh = '1' else r.rows_left;
+  row   <= lowest(rows);
 
-  comb_p : process (r, valid_i, front, row_bounds_i, bounds_i, row_count_i)
+  interval_i : entity raplas.row_interval
+    port map (
+      clk_i     => clk_i,
+      row_i     => row,
+      cuts_i    => word_i(edge_cuts_word_t'range),
+      whole_i   => front.whole,
+      columns_o => interval
+    );
+
+  comb_p : process (r, valid_i, front, rows, row, interval, bounds_i, row_count_i)
     variable v         : reg_t;
     variable rest_v    : line_mask_t;
     variable columns_v : line_mask_t;
-    variable busy_v    : std_ulogic;
     variable go_v      : std_ulogic;   -- a row, or the end of the pencil
-    variable end_v     : std_ulogic;   -- the last of this word
+    variable end_v     : std_ulogic;   -- nothing is left of this word
   begin
     v := r;
 
-    busy_v := '0';
-    if r.rows_left /= NO_LINES then
-      busy_v := '1';
-    end if;
-    go_v := '0';
-    if unsigned(row_count_i) < 2 ** ROW_FIFO_DEPTH_LOG2 - ROW_STAGES then
-      go_v := busy_v;
-    end if;
-    rest_v := without_lowest(r.rows_left);
+    rest_v := without_lowest(rows);
+    go_v   := '0';
     end_v  := '0';
-    if rest_v = NO_LINES and (unsigned(r.triangle.count) = 1 or r.triangle.last = '1') then
-      end_v := go_v;
+    if rows = NO_LINES then
+      end_v := valid_i;
+    elsif unsigned(row_count_i) < 2 ** ROW_FIFO_DEPTH_LOG2 - ROW_STAGES then
+      go_v := valid_i;
+      if rest_v = NO_LINES then
+        end_v := valid_i;
+      end if;
     end if;
+    v.fresh := end_v or (r.fresh and not go_v);
     if go_v = '1' then
       v.rows_left := rest_v;
-      if rest_v = NO_LINES then
-        v.rows_left      := r.triangle.rows;
-        v.triangle.first := std_ulogic_vector(unsigned(r.triangle.first) + 1);
-        v.triangle.count := std_ulogic_vector(unsigned(r.triangle.count) - 1);
-      end if;
-    end if;
-
-    if busy_v = '0' or end_v = '1' then
-      v.triangle      := front;
-      v.triangle.rows := front.rows and lines_beyond(front.z, row_bounds_i);
-      if front.last = '1' then   -- goes as one row
-        v.triangle.rows    := NO_LINES;
-        v.triangle.rows(0) := '1';
-      end if;
-      v.rows_left := NO_LINES;
-      if valid_i = '1' then
-        v.rows_left := v.triangle.rows;
-      end if;
     end if;
 
     v.s(1).valid        := go_v;
-    v.s(1).row.last     := r.triangle.last;
-    v.s(1).row.bank     := r.triangle.bank;
-    v.s(1).row.triangle := r.triangle.first;
-    v.s(1).row.z        := r.triangle.z;
-    v.s(1).row.row      := lowest(r.rows_left);
-    v.s(1).row.columns  := r.triangle.columns;
+    v.s(1).row.last     := front.last;
+    v.s(1).row.bank     := front.bank;
+    v.s(1).row.triangle := front.triangle;
+    v.s(1).row.z        := front.z;
+    v.s(1).row.row      := row;
+    v.s(1).row.columns  := front.columns;
     for k in 2 to ROW_STAGES loop
       v.s(k) := r.s(k - 1);
     end loop;
-    columns_v := r.s(MEMORY_STAGES).row.columns
-                 and lines_beyond(r.s(MEMORY_STAGES).row.z, bounds_i);
+    columns_v := r.s(ROW_INTERVAL_STAGES).row.columns and interval
+                 and lines_beyond(r.s(ROW_INTERVAL_STAGES).row.z, bounds_i);
     v.s(ROW_STAGES).row.columns := columns_v;
-    if columns_v = NO_LINES and r.s(MEMORY_STAGES).row.last = '0' then
+    if columns_v = NO_LINES and r.s(ROW_INTERVAL_STAGES).row.last = '0' then
       v.s(ROW_STAGES).valid := '0';
     end if;
 
-    ready_o <= end_v or not busy_v;
-    read_o  <= go_v and not r.triangle.last;
+    ready_o <= end_v;
     rin     <= v;
   end process comb_p;
 
@@ -137,7 +128,7 @@ begin
     if rising_edge(clk_i) then
       r <= rin;
       if rst_i = '1' then
-        r.rows_left <= NO_LINES;
+        r.fresh <= '1';
         for k in stages_t'range loop
           r.s(k).valid <= '0';
         end loop;
@@ -145,6 +136,9 @@ begin
     end if;
   end process reg_p;
 
+  read_o      <= r.s(READ_STAGES).valid and not r.s(READ_STAGES).row.last;
+  bank_o      <= r.s(READ_STAGES).row.bank;
+  row_o       <= r.s(READ_STAGES).row.row;
   row_valid_o <= r.s(ROW_STAGES).valid;
   row_word_o  <= pack_queued_row(r.s(ROW_STAGES).row);
 

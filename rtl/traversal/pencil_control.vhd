@@ -2,8 +2,8 @@
 -- pencil_control - brings one pencil after the other to the walk
 -- ----------------------------------------------------------------------------
 -- The host starts banks; each waits in a queue for its turn: its planes go into
--- the testers, one a clock, while the bounds and hit bits of its rays are
--- cleared; the tree is walked; an end-of-pencil token follows the last triangle.
+-- the testers, one of each side a clock, while the bounds and hit bits of its rays
+-- are cleared; the tree is walked; an end-of-pencil token follows the last triangle.
 -- The next pencil comes while the pairs of this one are still under way. A bank
 -- is busy from its start until its token has left the hit queue.
 -- model: cmodel/include/raplas/pencil_control.hpp     tests: tb/unit/pencil_control
@@ -28,8 +28,8 @@ entity pencil_control is
     columns_i   : in  std_ulogic_vector(LINE_BITS downto 0);
     clear_o     : out std_ulogic;                                 -- bounds and hit bits, please
     clearing_i  : in  std_ulogic;                                 -- from the next clock on
-    load_o      : out std_ulogic;                                 -- plane of line_o, please
-    line_o      : out std_ulogic_vector(5 downto 0);              -- row, 16 + column, 32, 33
+    load_o      : out std_ulogic;                                 -- planes of line_o, please
+    line_o      : out std_ulogic_vector(PLANE_INDEX_BITS - 1 downto 0);  -- row and column, 16, 17
     walk_o      : out std_ulogic;                                 -- the walk begins
     walk_idle_i : in  std_ulogic;
     token_o     : out std_ulogic;                                 -- behind the last triangle
@@ -48,7 +48,7 @@ architecture rtl of pencil_control is
     settling : std_ulogic;                       -- planes are there, bounds are not yet clear
     walking  : std_ulogic;
     token    : std_ulogic;                       -- wants to go
-    line     : unsigned(5 downto 0);
+    line     : unsigned(PLANE_INDEX_BITS - 1 downto 0);
     bank     : std_ulogic_vector(BANK_BITS - 1 downto 0);
     busy     : std_ulogic_vector(PENCIL_BANKS - 1 downto 0);
   end record;
@@ -78,10 +78,9 @@ begin
 
   comb_p : process (r, start_i, bank_i, rows_i, columns_i, clearing_i, walk_idle_i, token_ready_i,
                     done_i, done_bank_i, next_bank, waiting)
-    variable v          : reg_t;
-    variable last_row_v : unsigned(5 downto 0);
-    variable last_column_v : unsigned(5 downto 0);
-    variable take_v     : std_ulogic;
+    variable v       : reg_t;
+    variable lines_v : unsigned(LINE_BITS downto 0);   -- of the longer side
+    variable take_v  : std_ulogic;
   begin
     v       := r;
     v.clear := '0';
@@ -89,17 +88,16 @@ begin
     take_v  := '0';
     start   <= '0';
 
-    last_row_v    := resize(unsigned(rows_i), 6) - 1;
-    last_column_v := resize(unsigned(columns_i), 6) + (MAX_ROWS - 1);
+    lines_v := unsigned(rows_i);
+    if lines_v < unsigned(columns_i) then
+      lines_v := unsigned(columns_i);
+    end if;
     if r.loading = '1' then
-      if r.line = last_row_v then
-        v.line := to_unsigned(MAX_ROWS, 6);
-      elsif r.line = last_column_v then
-        v.line := to_unsigned(MAX_ROWS + MAX_COLUMNS, 6);
-      else
-        v.line := r.line + 1;
+      v.line := r.line + 1;
+      if v.line = lines_v then
+        v.line := to_unsigned(AXIS_PLANE, PLANE_INDEX_BITS);
       end if;
-      if r.line = NUM_FIXED_PLANES - 1 then
+      if r.line = GRID_PLANE then
         v.loading  := '0';
         v.settling := '1';
       end if;

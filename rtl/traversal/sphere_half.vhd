@@ -6,6 +6,7 @@
 --   @10  tests of all planes                     fixed_testers
 --        sphere: its child range to the stack if a row and a column are met
 --   @11  triangle, its rows and columns          triangle_lines
+--   @15  and its vertices on the pencil's grid   vertex_grid
 -- model: cmodel/include/raplas/raplas_unit.hpp     tests: tb/integration/raplas_unit
 -- ============================================================================
 library ieee;
@@ -13,6 +14,7 @@ use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 library raplas;
 use raplas.raplas_constants.all;
+use raplas.pair_selection_pkg.all;
 
 entity sphere_half is
   generic (
@@ -33,20 +35,21 @@ entity sphere_half is
     rows_i         : in  std_ulogic_vector(LINE_BITS downto 0);
     columns_i      : in  std_ulogic_vector(LINE_BITS downto 0);
     slack_i        : in  std_ulogic_vector(COORDINATE_BITS - 1 downto 0);
-    load_i         : in  std_ulogic;                                  -- plane of line_i, please
-    line_i         : in  std_ulogic_vector(5 downto 0);
+    scale_i        : in  std_ulogic_vector(GRID_EXPONENT_BITS - 1 downto 0);
+    least_i        : in  std_ulogic_vector(GRID_EXPONENT_BITS - 1 downto 0);
+    load_i         : in  std_ulogic;                                  -- planes of line_i, please
+    line_i         : in  std_ulogic_vector(PLANE_INDEX_BITS - 1 downto 0);
     walk_i         : in  std_ulogic;                                  -- the walk begins
     idle_o         : out std_ulogic;                                  -- it is over
     root_first_i   : in  std_ulogic_vector(ID_BITS - 1 downto 0);
     root_count_i   : in  std_ulogic_vector(COUNT_BITS - 1 downto 0);
     row_bounds_i   : in  std_ulogic_vector(MAX_ROWS * DEPTH_BITS - 1 downto 0);
-    -- triangles
+    token_i        : in  std_ulogic;                                  -- the pencil's end, please
+    token_ready_o  : out std_ulogic;                                  -- it is taken in this clock
+    -- triangles, and the end of the pencil behind them
     triangles_i    : in  std_ulogic_vector(TRIANGLE_FIFO_DEPTH_LOG2 downto 0);   -- in the queue
     valid_o        : out std_ulogic;
-    triangle_o     : out std_ulogic_vector(ID_BITS - 1 downto 0);
-    rows_o         : out std_ulogic_vector(MAX_ROWS - 1 downto 0);
-    columns_o      : out std_ulogic_vector(MAX_COLUMNS - 1 downto 0);
-    z_o            : out std_ulogic_vector(DEPTH_BITS - 1 downto 0);
+    word_o         : out queued_triangle_word_t;
     -- for counters and traces
     request_o      : out std_ulogic;
     vertex_o       : out std_ulogic;                                  -- the request is a vertex'
@@ -66,7 +69,11 @@ architecture rtl of sphere_half is
   constant TAG_BITS      : positive := STEP_BITS + CHILDREN_BITS;
   constant PLACE_BITS    : positive := 3 + ID_BITS;                            -- slot emit triangle
   constant POINT_BITS    : positive := 3 * COORDINATE_BITS;
-  constant RESERVE       : positive := 2;   -- triangles between the walk's count and the queue's
+  constant PLANE_ADDRESS_BITS : positive := BANK_BITS + PLANE_INDEX_BITS;      -- of a side
+  constant GRID_STAGES   : positive := VERTEX_GRID_STAGES - 1;   -- from a triangle to its points
+  constant RESERVE       : positive := GRID_STAGES + 2;   -- triangles between the walk's count
+                                                          -- and the queue's
+  constant FOUND_BITS    : positive := QUEUED_TRIANGLE_BITS - 3 * GRID_POINT_BITS;
 
   subtype mask_t is std_ulogic_vector(MAX_ROWS - 1 downto 0);
 
@@ -85,18 +92,33 @@ architecture rtl of sphere_half is
   signal object          : std_ulogic_vector(POINT_BITS + COORDINATE_BITS - 1 downto 0);
   signal tag_s2, tag_s10 : std_ulogic_vector(TAG_BITS - 1 downto 0);
   -- planes
-  signal plane_address   : std_ulogic_vector(BANK_BITS + 5 downto 0);
-  signal plane_word      : fixed_plane_word_t;
-  signal load_s0, load_s2 : std_ulogic_vector(6 downto 0);
+  signal plane_address   : std_ulogic_vector(PLANE_ADDRESS_BITS - 1 downto 0);
+  signal host_address    : std_ulogic_vector(PLANE_ADDRESS_BITS - 1 downto 0);
+  signal write_row, write_column : std_ulogic;
+  signal row_plane, column_plane : fixed_plane_word_t;
+  signal load_s0, load_s2 : std_ulogic_vector(PLANE_INDEX_BITS downto 0);
   -- @10
   signal rows_meet, rows_above, columns_meet, columns_above : mask_t;
   signal near            : std_ulogic;
   signal z               : std_ulogic_vector(DEPTH_BITS - 1 downto 0);
+  signal depth_sum_code  : std_ulogic_vector(DEPTH_BITS - 1 downto 0);
+  signal down_sum, across_sum : std_ulogic_vector(PLANE_SUM_BITS - 1 downto 0);
   signal rows_s10, columns_s10 : mask_t;
   signal met_rows, met_columns : mask_t;
   signal vertex_s10, last_s10, push, place_valid : std_ulogic;
   signal place           : std_ulogic_vector(PLACE_BITS - 1 downto 0);
   signal push_range      : std_ulogic_vector(RANGE_BITS - 1 downto 0);
+
+  -- @11
+  signal line_valid, token_ready : std_ulogic;
+  signal line_rows, line_columns : mask_t;
+  signal line_z          : depth_t;
+  signal line_triangle   : std_ulogic_vector(ID_BITS - 1 downto 0);
+  signal token           : std_ulogic_vector(0 downto 0);
+  signal valid_s11, valid_s15 : std_ulogic_vector(0 downto 0);
+  signal found_s11, found_s15 : std_ulogic_vector(FOUND_BITS - 1 downto 0);
+  -- @15
+  signal points          : std_ulogic_vector(3 * GRID_POINT_BITS - 1 downto 0);
 
   function lines(count : std_ulogic_vector(LINE_BITS downto 0)) return mask_t is
     variable mask_v : mask_t := (others => '0');
@@ -198,39 +220,58 @@ begin
     generic map (WIDTH => TAG_BITS, STAGES => TEST_STAGES)
     port map (clk_i => clk_i, rst_i => '0', data_i => tag_s2, data_o => tag_s10);
 
-  -- planes: from their memory into the testers' own registers
+  -- planes: from their memories, one for each side, into the testers' own registers
   plane_address <= bank_i & line_i;
   load_s0       <= load_i & line_i;
+  host_address  <= address_i(PLANE_ADDRESS_BITS downto PLANE_INDEX_BITS + 1)
+                   & address_i(PLANE_INDEX_BITS - 1 downto 0);
+  write_row     <= write_plane_i and not address_i(PLANE_INDEX_BITS);
+  write_column  <= write_plane_i and address_i(PLANE_INDEX_BITS);
 
-  plane_memory_i : entity raplas.ram
-    generic map (WIDTH => FIXED_PLANE_BITS, ADDRESS_BITS => BANK_BITS + 6)
+  row_plane_memory_i : entity raplas.ram
+    generic map (WIDTH => FIXED_PLANE_BITS, ADDRESS_BITS => PLANE_ADDRESS_BITS)
     port map (
       clk_i           => clk_i,
-      write_i         => write_plane_i,
-      write_address_i => address_i(BANK_BITS + 5 downto 0),
+      write_i         => write_row,
+      write_address_i => host_address,
       write_data_i    => data_i(FIXED_PLANE_BITS - 1 downto 0),
       read_address_i  => plane_address,
-      read_data_o     => plane_word
+      read_data_o     => row_plane
+    );
+
+  column_plane_memory_i : entity raplas.ram
+    generic map (WIDTH => FIXED_PLANE_BITS, ADDRESS_BITS => PLANE_ADDRESS_BITS)
+    port map (
+      clk_i           => clk_i,
+      write_i         => write_column,
+      write_address_i => host_address,
+      write_data_i    => data_i(FIXED_PLANE_BITS - 1 downto 0),
+      read_address_i  => plane_address,
+      read_data_o     => column_plane
     );
 
   load_delay : entity raplas.delay
-    generic map (WIDTH => 7, STAGES => MEMORY_STAGES)
+    generic map (WIDTH => PLANE_INDEX_BITS + 1, STAGES => MEMORY_STAGES)
     port map (clk_i => clk_i, rst_i => rst_i, data_i => load_s0, data_o => load_s2);
 
   testers_i : entity raplas.fixed_testers
     port map (
-      clk_i           => clk_i,
-      load_i          => load_s2(6),
-      plane_i         => plane_word,
-      line_i          => load_s2(5 downto 0),
-      object_i        => object,
-      slack_i         => slack_i,
-      rows_meet_o     => rows_meet,
-      rows_above_o    => rows_above,
-      columns_meet_o  => columns_meet,
-      columns_above_o => columns_above,
-      near_o          => near,
-      z_o             => z
+      clk_i            => clk_i,
+      load_i           => load_s2(PLANE_INDEX_BITS),
+      row_plane_i      => row_plane,
+      column_plane_i   => column_plane,
+      index_i          => load_s2(PLANE_INDEX_BITS - 1 downto 0),
+      object_i         => object,
+      slack_i          => slack_i,
+      rows_meet_o      => rows_meet,
+      rows_above_o     => rows_above,
+      columns_meet_o   => columns_meet,
+      columns_above_o  => columns_above,
+      near_o           => near,
+      z_o              => z,
+      depth_sum_code_o => depth_sum_code,
+      down_sum_o       => down_sum,
+      across_sum_o     => across_sum
     );
 
   -- @10
@@ -262,13 +303,43 @@ begin
       rows_i          => rows_s10,
       columns_i       => columns_s10,
       triangle_i      => place(ID_BITS - 1 downto 0),
-      valid_o         => valid_o,
-      rows_o          => rows_o,
-      columns_o       => columns_o,
-      z_o             => z_o,
-      triangle_o      => triangle_o
+      valid_o         => line_valid,
+      rows_o          => line_rows,
+      columns_o       => line_columns,
+      z_o             => line_z,
+      triangle_o      => line_triangle
     );
 
+  grid_i : entity raplas.vertex_grid
+    port map (
+      clk_i    => clk_i,
+      valid_i  => place_valid,
+      slot_i   => place(PLACE_BITS - 1 downto PLACE_BITS - 2),
+      across_i => across_sum,
+      down_i   => down_sum,
+      depth_i  => depth_sum_code,
+      scale_i  => scale_i,
+      least_i  => least_i,
+      points_o => points
+    );
+
+  -- @11: a triangle, or the end of the pencil: the walk is over, and none comes in that clock
+  token_ready   <= not waiting(TRIANGLE_FIFO_DEPTH_LOG2);
+  token_ready_o <= token_ready;
+  token(0)      <= token_i and token_ready;
+  valid_s11(0)  <= line_valid or token(0);
+  found_s11     <= token & bank_i & line_triangle & line_z & line_rows & line_columns;
+
+  valid_delay_15 : entity raplas.delay
+    generic map (WIDTH => 1, STAGES => GRID_STAGES)
+    port map (clk_i => clk_i, rst_i => rst_i, data_i => valid_s11, data_o => valid_s15);
+
+  found_delay_15 : entity raplas.delay
+    generic map (WIDTH => FOUND_BITS, STAGES => GRID_STAGES)
+    port map (clk_i => clk_i, rst_i => '0', data_i => found_s11, data_o => found_s15);
+
+  valid_o   <= valid_s15(0);
+  word_o    <= found_s15 & points;
   request_o <= request;
   vertex_o  <= vertex;
   object_o  <= address;

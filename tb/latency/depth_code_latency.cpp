@@ -13,7 +13,8 @@ TEST(Latency, OfDepthCodeIsItsStages) {
     const std::uint64_t d = random() >> (24 + random() % 30);
     return {
         {port_value("d_i", std::array{static_cast<std::uint32_t>(d), static_cast<std::uint32_t>(d >> 32)})},
-        {port_value("z_o", depth_lower(static_cast<std::int64_t>(d)))}};
+        {port_value("code_o", depth_code(static_cast<std::int64_t>(d))),
+         port_value("z_o", depth_lower(static_cast<std::int64_t>(d)))}};
   };
   check_latency(operands_in_turn(20, make), kDepthCodeStages);
 }

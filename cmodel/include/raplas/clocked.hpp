@@ -56,4 +56,25 @@ class Fifo {
   std::size_t count_ = 0;
 };
 
+/// Queue whose words show a clock later than those of Fifo: entity block_fifo.
+template <typename T, std::size_t kDepth>
+class BlockFifo {
+ public:
+  [[nodiscard]] bool valid() const noexcept { return valid_; }  ///< front() is a word
+  [[nodiscard]] bool ready() const noexcept { return words_.ready(); }
+  [[nodiscard]] std::size_t count() const noexcept { return words_.count(); }  ///< shown or not yet
+  [[nodiscard]] const T& front() const noexcept { return words_.front(); }
+
+  /// A write into a full queue and a read while nothing is valid are ignored.
+  void clock(bool write, const T& word, bool read) noexcept {
+    const bool read_now = read && valid_;
+    valid_ = words_.count() > (read_now ? 1 : 0);  // those of the clocks before
+    words_.clock(write, word, read_now);
+  }
+
+ private:
+  Fifo<T, kDepth> words_;
+  bool valid_ = false;
+};
+
 }  // namespace raplas

@@ -56,6 +56,8 @@ inline constexpr int kCoordinateBits = 18;
 inline constexpr int kCoordinateFraction = 17;
 /// fixed point: bits of a plane's offset (signed); LSB 2^-34
 inline constexpr int kOffsetBits = 36;
+/// fixed point: bits of n.x + p, radius added or taken off (signed); LSB 2^-34
+inline constexpr int kPlaneSumBits = 40;
 /// latency of dsp_plane_test, clocks from its first operand
 inline constexpr int kPlaneTestStages = 6;
 /// depth code: bits of the exponent; code 0 stands for 0
@@ -66,6 +68,32 @@ inline constexpr int kDepthFractionBits = 10;
 inline constexpr int kDepthBits = 15;
 /// depth code: bias of the exponent
 inline constexpr int kDepthBias = 21;
+/// scan lines: bits of a vertex' row or column on the pencil's grid (signed)
+inline constexpr int kGridBits = 16;
+/// scan lines: fraction bits of these
+inline constexpr int kGridFraction = 5;
+/// scan lines: bits of the two exponents in the grid's register
+inline constexpr int kGridExponentBits = 5;
+/// scan lines: bits of the grid's error class
+inline constexpr int kGridErrorBits = 2;
+/// scan lines: bits of a reciprocal of 1 .. 2, whose index has DEPTH_FRACTION_BITS
+inline constexpr int kReciprocalBits = 17;
+/// scan lines: bits of an edge's slope, columns a row (signed)
+inline constexpr int kSlopeBits = 18;
+/// scan lines: fraction bits of a slope
+inline constexpr int kSlopeFraction = 12;
+/// scan lines: bits of the column where an edge cuts line 8 (signed)
+inline constexpr int kCutBits = 19;
+/// scan lines: fraction bits of this column
+inline constexpr int kCutFraction = 7;
+/// latency of dsp_multiply_add, clocks from its factors
+inline constexpr int kMultiplyAddStages = 3;
+/// latency of row_interval, clocks: MULTIPLY_ADD_STAGES + 3
+inline constexpr int kRowIntervalStages = 6;
+/// latency of vertex_grid, clocks: MULTIPLY_ADD_STAGES, the shift before and the slot after
+inline constexpr int kVertexGridStages = 5;
+/// latency of edge_setup, clocks from the one in which a word is taken
+inline constexpr int kEdgeSetupStages = 13;
 /// latency of depth_code, clocks
 inline constexpr int kDepthCodeStages = 2;
 /// depth code: taken off depths, for rays whose t is a little too small
@@ -76,12 +104,20 @@ inline constexpr int kQuotientError = 4;
 inline constexpr int kPencilBanks = 4;
 /// PENCIL_BANKS = 2^2
 inline constexpr int kBankBits = 2;
-/// planes of a pencil in fixed point: 16 rows, 16 columns, near plane, depth plane
-inline constexpr int kNumFixedPlanes = 34;
+/// index of the near plane on the row side, of the depth plane on the column side
+inline constexpr int kAxisPlane = 16;
+/// index of the down plane on the row side, of the across plane on the column side
+inline constexpr int kGridPlane = 17;
+/// planes of a pencil on each of the two sides: 16 lines, and those two
+inline constexpr int kSidePlanes = 18;
+/// bits of a plane's index on its side
+inline constexpr int kPlaneIndexBits = 5;
 /// entries at the top of the traversal stack among which the nearest comes first
 inline constexpr int kSortedRanges = 4;
 /// triangles that wait for the selector: 2^6
 inline constexpr int kTriangleFifoDepthLog2 = 6;
+/// triangles with their edges that wait for the selector: 2^5
+inline constexpr int kCutFifoDepthLog2 = 5;
 /// rows of triangles that wait for the selector's second half: 2^4
 inline constexpr int kRowFifoDepthLog2 = 4;
 /// hits that wait for the nearest hit of their ray: 2^6
@@ -191,7 +227,7 @@ struct VertexLayout {
   static constexpr Field triangle{0, 21};
 };
 
-/// n.x + p = 0, |n| <= 1; address = bank * 64 + (row, 16 + column, 32 near, 33 depth)
+/// n.x + p = 0, |n| <= 1; address = bank * 64 + side * 32 + index
 struct FixedPlaneLayout {
   static constexpr int kBits = 90;
   static constexpr Field nx{72, 18};
@@ -200,10 +236,13 @@ struct FixedPlaneLayout {
   static constexpr Field p{0, 36};
 };
 
-/// register: any hit ends a ray; error bound of the planes; first depth too far; address = bank
+/// register: any hit; grid of scan lines; error of the planes; first depth too far; address = bank
 struct LimitsLayout {
-  static constexpr int kBits = 34;
-  static constexpr Field any_hit{33, 1};
+  static constexpr int kBits = 46;
+  static constexpr Field any_hit{45, 1};
+  static constexpr Field scale{40, 5};
+  static constexpr Field least{35, 5};
+  static constexpr Field error{33, 2};
   static constexpr Field slack{15, 18};
   static constexpr Field far{0, 15};
 };

@@ -35,12 +35,15 @@ struct FixedPlane {
   }
 };
 
-/// All planes of a pencil.
+/// All planes of a pencil. The row side of the Plane Memory holds rows, near and down (kAxisPlane,
+/// kGridPlane), the column side columns, depth and across.
 struct FixedPlanes {
   std::array<FixedPlane, kMaxRows> rows;
   std::array<FixedPlane, kMaxColumns> columns;
-  FixedPlane near;   ///< n is the pencil's axis; objects wholly on its negative side are dropped
-  FixedPlane depth;  ///< n is the pencil's axis; n.x + p is the depth of x
+  FixedPlane near;    ///< n is the pencil's axis; objects wholly on its negative side are dropped
+  FixedPlane depth;   ///< n is the pencil's axis; n.x + p is the depth of x
+  FixedPlane down;    ///< n.x + p grows from row to row
+  FixedPlane across;  ///< n.x + p grows from column to column
 };
 
 /// What the testers say of an object, a bit for each line.
@@ -49,8 +52,11 @@ struct FixedTest {
   std::uint32_t rows_above = 0;
   std::uint32_t columns_meet = 0;
   std::uint32_t columns_above = 0;
-  bool near = false;    ///< not wholly behind the near plane
-  std::uint32_t z = 0;  ///< depth code: no point of the object is less deep
+  bool near = false;        ///< not wholly behind the near plane
+  std::uint32_t z = 0;      ///< depth code: no point of the object is less deep
+  std::int64_t down = 0;    ///< distance from the down plane, the reach added
+  std::int64_t across = 0;  ///< from the across plane likewise
+  std::uint32_t depth = 0;  ///< depth code of the distance from the depth plane, the reach taken off
 
   friend constexpr bool operator==(const FixedTest&, const FixedTest&) noexcept = default;
 };
@@ -76,7 +82,7 @@ struct FixedTest {
          static_cast<std::uint32_t>(distance >> (top - kDepthFractionBits));
 }
 
-/// What depth_code (the entity) gives: the code less DEPTH_MARGIN, at least 0.
+/// What depth_code (the entity) gives as z_o: the code less DEPTH_MARGIN, at least 0.
 [[nodiscard]] constexpr std::uint32_t depth_lower(std::int64_t distance) noexcept {
   constexpr std::uint32_t kMargin{kDepthMargin};
   const std::uint32_t code = depth_code(distance);
@@ -98,7 +104,11 @@ struct FixedTest {
   lines(planes.rows, test.rows_meet, test.rows_above);
   lines(planes.columns, test.columns_meet, test.columns_above);
   test.near = plane_sum(planes.near, centre) + reach >= 0;
-  test.z = depth_lower(plane_sum(planes.depth, centre) - reach);
+  const std::int64_t depth = plane_sum(planes.depth, centre) - reach;
+  test.z = depth_lower(depth);
+  test.down = plane_sum(planes.down, centre) + reach;
+  test.across = plane_sum(planes.across, centre) + reach;
+  test.depth = depth_code(depth);
   return test;
 }
 
@@ -197,15 +207,24 @@ struct VertexWord {
   }
 };
 
+/// LimitsWord::least of a pencil without scan lines: no vertex has that depth.
+inline constexpr std::uint32_t kNoGrid = (1U << kGridExponentBits) - 1;
+
 /// The register beside the pencil word.
 struct LimitsWord {
-  bool any_hit = false;     ///< a ray's first hit ends it
-  std::uint32_t slack = 0;  ///< in units of 2^-kCoordinateFraction
-  std::uint32_t far = 0;    ///< only hits with a smaller depth code count
+  bool any_hit = false;           ///< a ray's first hit ends it
+  std::uint32_t slack = 0;        ///< in units of 2^-kCoordinateFraction
+  std::uint32_t far = 0;          ///< only hits with a smaller depth code count
+  std::uint32_t scale = 0;        ///< the grid of scan lines: how its planes are scaled, see kGridScaleBias
+  std::uint32_t least = kNoGrid;  ///< exponent of the least depth code at which vertices have a place on it
+  std::uint32_t error = 0;        ///< log2 of its places' error in eighths of a line
 
   [[nodiscard]] PackedWord<LimitsLayout::kBits> pack() const noexcept {
     PackedWord<LimitsLayout::kBits> word{};
     insert(word, LimitsLayout::any_hit, any_hit ? 1 : 0);
+    insert(word, LimitsLayout::scale, scale);
+    insert(word, LimitsLayout::least, least);
+    insert(word, LimitsLayout::error, error);
     insert(word, LimitsLayout::slack, slack);
     insert(word, LimitsLayout::far, far);
     return word;

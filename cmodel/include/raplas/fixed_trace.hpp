@@ -10,6 +10,7 @@
 
 #include "raplas/fixed_point.hpp"
 #include "raplas/ray_triangle.hpp"
+#include "raplas/scan_lines.hpp"
 
 namespace raplas {
 
@@ -39,6 +40,7 @@ struct Skips {
   bool hidden = true;         ///< depth: objects beyond the hits that their rays have, or beyond `far`
   bool nearest_first = true;  ///< off: children in the order of the memory
   bool rectangles = true;     ///< off: a triangle goes to all rays that its leaf's sphere meets
+  bool scan_lines = true;     ///< off: a triangle goes to all rays of its rectangle
   bool ended = true;          ///< off: rays of an any-hit pencil go on after their first hit
 };
 
@@ -48,10 +50,13 @@ struct FixedCounts {
   std::uint64_t vertices = 0;
   std::uint64_t pairs = 0;
   std::uint64_t hits = 0;    ///< rays that hit
-  std::uint64_t strays = 0;  ///< pairs that Moeller's test took, outside of the triangle's lines or depth
+  std::uint64_t strays = 0;  ///< pairs that Moeller's test took, outside of the piece's lines or depth
 };
 
-/// The walk of one pencil, done by the constructor.
+/// The walk of one pencil, done by the constructor. Three vertices with a word that emits are a piece of the
+/// word's triangle: all of it, or a part of a large one. A ray hits the triangle if for one of its pieces the
+/// ray's lines cross it, one of its vertices is near and z <= q < far. What rows, columns and z are those of
+/// belongs to the piece; t, d, u and v are the triangle's, whichever piece the ray was tested for.
 template <typename F>
 class FixedTrace {
  public:
@@ -135,14 +140,15 @@ class FixedTrace {
     for (std::uint32_t k = leaf.first; k < leaf.first + leaf.count; ++k) {
       const VertexWord& vertex = scene_.vertices[k];
       slots[vertex.slot] = test_object(pencil_.planes, vertex.point, 0, pencil_.limits.slack);
-      counts_.vertices += skips_.rectangles ? 1 : 0;
+      counts_.vertices += skips_.rectangles || skips_.scan_lines ? 1 : 0;
       if (vertex.emit) {
-        test_pairs(leaf, crossed_lines(slots), vertex.triangle);
+        test_pairs(leaf, crossed_lines(slots), reached_columns(slots, pencil_.limits), vertex.triangle);
       }
     }
   }
 
-  void test_pairs(const Range& leaf, const CrossedLines& lines, std::uint32_t triangle) {
+  void test_pairs(const Range& leaf, const CrossedLines& lines, const ReachedColumns& reached,
+                  std::uint32_t triangle) {
     if (skips_.rectangles && skips_.behind && !lines.near) {
       return;
     }
@@ -152,8 +158,10 @@ class FixedTrace {
       const auto in = [row, column](std::uint32_t rows, std::uint32_t columns) {
         return (rows >> row & columns >> column & 1U) != 0;
       };
-      const bool inside = in(lines.rows, lines.columns);
-      if (!in(leaf.rows, leaf.columns) || (skips_.rectangles && !inside) || !in_front(ray, lines.z)) {
+      const bool crossed = in(lines.rows, lines.columns);
+      const bool inside = crossed && (reached[row] >> column & 1U) != 0;
+      if (!in(leaf.rows, leaf.columns) || (skips_.rectangles && !crossed) || (skips_.scan_lines && !inside) ||
+          !in_front(ray, lines.z)) {
         continue;
       }
       ++counts_.pairs;

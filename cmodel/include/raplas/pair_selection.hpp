@@ -10,6 +10,7 @@
 
 #include "raplas/clocked.hpp"
 #include "raplas/fixed_point.hpp"
+#include "raplas/scan_lines.hpp"
 
 namespace raplas {
 
@@ -123,17 +124,18 @@ class RayBounds {
   std::size_t clear_row_ = 0;
 };
 
-/// Word of the queue of triangles: a range of triangles that a pencil meets, or the pencil's end.
+/// Word of the queue of triangles: one that the pencil meets, or the pencil's end.
 struct QueuedTriangle {
-  static constexpr int kBits = 1 + kBankBits + kIdBits + kCountBits + kDepthBits + kMaxRows + kMaxColumns;
+  static constexpr int kPointBits = 1 + 2 * kGridBits;
+  static constexpr int kBits = 1 + kBankBits + kIdBits + kDepthBits + kMaxRows + kMaxColumns + 3 * kPointBits;
 
   bool last = false;  ///< end of the pencil: nothing else but bank counts
   std::uint32_t bank = 0;
-  std::uint32_t first = 0;
-  std::uint32_t count = 0;  ///< 1 ..
-  std::uint32_t z = 0;      ///< none of them is nearer
+  std::uint32_t triangle = 0;
+  std::uint32_t z = 0;  ///< it is not nearer
   LineMask rows = 0;
   LineMask columns = 0;
+  std::array<GridPoint, 3> points{};
 
   [[nodiscard]] PackedWord<kBits> pack() const noexcept {
     PackedWord<kBits> word{};
@@ -142,11 +144,60 @@ struct QueuedTriangle {
       insert(word, {lsb, width}, value);
       lsb += width;
     };
+    for (std::size_t k = points.size(); k-- > 0;) {
+      const GridPoint& point = points[k];
+      put(static_cast<std::uint32_t>(point.down), kGridBits);
+      put(static_cast<std::uint32_t>(point.across), kGridBits);
+      put(point.known ? 1 : 0, 1);
+    }
     put(columns, kMaxColumns);
     put(rows, kMaxRows);
     put(z, kDepthBits);
-    put(count, kCountBits);
-    put(first, kIdBits);
+    put(triangle, kIdBits);
+    put(bank, kBankBits);
+    put(last ? 1 : 0, 1);
+    return word;
+  }
+};
+
+/// Word of the queue of cut triangles: one with its edges, or the pencil's end.
+struct CutTriangle {
+  static constexpr int kCutLineBits = kLineBits + 1;
+  static constexpr int kMarginBits = kSlopeBits - 1;
+  static constexpr int kEdgeBits = 1 + 2 * kCutLineBits + kCutBits + kSlopeBits + kMarginBits;
+  static constexpr int kBits =
+      1 + kBankBits + kIdBits + kDepthBits + kMaxRows + kMaxColumns + 1 + 3 * kEdgeBits;
+
+  bool last = false;  ///< end of the pencil: nothing else but bank counts
+  std::uint32_t bank = 0;
+  std::uint32_t triangle = 0;
+  std::uint32_t z = 0;
+  LineMask rows = 0;
+  LineMask columns = 0;
+  bool whole = false;  ///< all columns of each row: cuts don't count
+  EdgeCuts cuts{};
+
+  [[nodiscard]] PackedWord<kBits> pack() const noexcept {
+    PackedWord<kBits> word{};
+    int lsb = 0;
+    const auto put = [&word, &lsb](std::int64_t value, int width) {
+      insert(word, {lsb, width}, static_cast<std::uint32_t>(value));
+      lsb += width;
+    };
+    for (std::size_t k = cuts.size(); k-- > 0;) {
+      const EdgeCut& cut = cuts[k];
+      put(cut.margin, kMarginBits);
+      put(cut.slope, kSlopeBits);
+      put(cut.at, kCutBits);
+      put(cut.last, kCutLineBits);
+      put(cut.first, kCutLineBits);
+      put(cut.open ? 1 : 0, 1);
+    }
+    put(whole ? 1 : 0, 1);
+    put(columns, kMaxColumns);
+    put(rows, kMaxRows);
+    put(z, kDepthBits);
+    put(triangle, kIdBits);
     put(bank, kBankBits);
     put(last ? 1 : 0, 1);
     return word;
@@ -203,52 +254,48 @@ struct QueuedRow {
 /// The mask without its lowest line.
 [[nodiscard]] constexpr LineMask without_lowest(LineMask mask) noexcept { return mask & (mask - 1); }
 
-/// Entity row_selector: the rows of a triangle in which it matters to a ray.
+/// Entity row_selector: the rows of a triangle in which it matters to a ray. The word of a triangle stays at
+/// the front of its queue until its last row goes.
 class RowSelector {
  public:
-  static constexpr std::size_t kRowStages = kMemoryStages + 1;
+  static constexpr std::size_t kRowStages = kRowIntervalStages + 1;
   static constexpr std::size_t kQueueRows = std::size_t{1} << kRowFifoDepthLog2;
 
   /// The row of the last stage and whether it goes into the queue.
   [[nodiscard]] bool row_valid() const noexcept { return decided_valid_; }
   [[nodiscard]] const QueuedRow& row() const noexcept { return decided_; }
 
-  /// The front word is taken in this clock, given the words in the queue of rows.
-  [[nodiscard]] bool ready(std::size_t row_count) const noexcept {
-    return rows_left_ == 0 || ends(row_count);
+  /// The front word is taken in this clock: it has no row, or its last one goes. row_count: words in the
+  /// queue of rows.
+  [[nodiscard]] bool ready(bool valid, const CutTriangle& front, std::size_t row_count) const noexcept {
+    const LineMask rows = rows_left(front);
+    return valid && without_lowest(rows) == 0 && (rows == 0 || goes(valid, front, row_count));
   }
 
   /// The row that is asked for in this clock.
-  [[nodiscard]] RayBounds::Read read(std::size_t row_count) const noexcept {
-    const int row = rows_left_ == 0 ? 0 : std::countr_zero(rows_left_);
-    return {goes(row_count) && !triangle_.last, triangle_.bank, static_cast<std::size_t>(row)};
+  [[nodiscard]] RayBounds::Read read() const noexcept {
+    const auto& [valid, row] = on_the_way_.out();
+    return {valid && !row.last, row.bank, row.row};
   }
 
-  /// row_bounds: of the front word's bank; bounds: of the row asked for kMemoryStages clocks ago.
-  void clock(bool valid, const QueuedTriangle& front, const LineBounds& row_bounds, const LineBounds& bounds,
-             std::size_t row_count) noexcept {
-    const Stage& read_now = stages_.out();
+  /// bounds: of the row asked for kMemoryStages clocks ago.
+  void clock(bool valid, const CutTriangle& front, const LineBounds& bounds, std::size_t row_count) noexcept {
+    const Stage& read_now = asked_.out();
     decided_ = read_now.row;
     decided_.columns &= lines_beyond(decided_.z, bounds);
     decided_valid_ = read_now.valid && (decided_.last || decided_.columns != 0);
+    asked_.clock(on_the_way_.out());
 
-    const bool go = goes(row_count);
-    const bool take = ready(row_count);
-    stages_.clock({go,
-                   {triangle_.last, triangle_.bank, triangle_.first, triangle_.z,
-                    static_cast<std::uint32_t>(read(row_count).row), triangle_.columns}});
-    if (take) {
-      triangle_ = front;
-      triangle_.rows = front.last ? 1 : front.rows & lines_beyond(front.z, row_bounds);
-      rows_left_ = valid ? triangle_.rows : 0;
-    } else if (go) {
-      rows_left_ = without_lowest(rows_left_);
-      if (rows_left_ == 0) {
-        rows_left_ = triangle_.rows;
-        ++triangle_.first;
-        --triangle_.count;
-      }
+    const LineMask rows = rows_left(front);
+    const auto row = static_cast<std::uint32_t>(rows == 0 ? 0 : std::countr_zero(rows));
+    const LineMask interval = front.whole ? first_lines(kMaxColumns) : row_columns(front.cuts, row);
+    const bool go = goes(valid, front, row_count);
+    const bool taken = ready(valid, front, row_count);
+    on_the_way_.clock({go, {front.last, front.bank, front.triangle, front.z, row, front.columns & interval}});
+    if (go) {
+      rows_left_ = without_lowest(rows);
     }
+    fresh_ = taken || (fresh_ && !go);
   }
 
  private:
@@ -257,17 +304,19 @@ class RowSelector {
     QueuedRow row;
   };
 
-  /// A row, or the end of a pencil, goes: the queue has room behind all that can be under way.
-  [[nodiscard]] bool goes(std::size_t row_count) const noexcept {
-    return rows_left_ != 0 && row_count < kQueueRows - kRowStages;
+  /// Of the front word; the end of a pencil goes as one row.
+  [[nodiscard]] LineMask rows_left(const CutTriangle& front) const noexcept {
+    return front.last ? 1 : fresh_ ? front.rows : rows_left_;
   }
-  [[nodiscard]] bool ends(std::size_t row_count) const noexcept {
-    return goes(row_count) && without_lowest(rows_left_) == 0 && (triangle_.count == 1 || triangle_.last);
+  /// A row, or the end of a pencil, goes: the queue has room behind all that can be under way.
+  [[nodiscard]] bool goes(bool valid, const CutTriangle& front, std::size_t row_count) const noexcept {
+    return valid && rows_left(front) != 0 && row_count < kQueueRows - kRowStages;
   }
 
-  QueuedTriangle triangle_;
+  bool fresh_ = true;  ///< no row of the front word has gone
   LineMask rows_left_ = 0;
-  Delay<Stage, kMemoryStages> stages_;
+  Delay<Stage, kRowIntervalStages - kMemoryStages> on_the_way_;
+  Delay<Stage, kMemoryStages> asked_;
   bool decided_valid_ = false;
   QueuedRow decided_;
 };

@@ -1,6 +1,7 @@
 // One pencil after the other, clock by clock: entity pencil_control.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +17,7 @@ class PencilControl {
   /// What it gives in a clock.
   struct Out {
     bool clear = false;  ///< bounds and hit bits of the bank, please
-    bool load = false;   ///< plane `line` of the bank, please
+    bool load = false;   ///< planes `line` of both sides of the bank, please
     std::uint32_t line = 0;
     bool walk = false;   ///< the walk begins
     bool token = false;  ///< wants to go
@@ -55,12 +56,13 @@ class PencilControl {
   void step(std::uint32_t rows, std::uint32_t columns, bool clearing, bool walk_idle,
             bool token_ready) noexcept {
     if (state_ == State::loading) {
-      if (line_ == kNumFixedPlanes - 1) {
+      if (line_ == kGridPlane) {
         state_ = State::settling;
       }
-      line_ = line_ == rows - 1                 ? kMaxRows
-              : line_ == columns + kMaxRows - 1 ? kMaxRows + kMaxColumns
-                                                : line_ + 1;
+      ++line_;
+      if (line_ == std::max(rows, columns)) {
+        line_ = kAxisPlane;
+      }
     } else if (state_ == State::settling && !clearing) {
       state_ = State::walking;
     } else if (state_ == State::walking && walk_idle) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "raplas/clocked.hpp"
+#include "raplas/edge_setup.hpp"
 #include "raplas/fixed_trace.hpp"
 #include "raplas/hit_queue.hpp"
 #include "raplas/pair_selection.hpp"
@@ -20,7 +21,8 @@ struct RaplasEdges {
   WalkRequest request;
   int stack_level = 0;
   bool push = false;
-  CrossingTriangle found;
+  bool triangle_found = false;
+  QueuedTriangle found;
   bool issue = false;
   std::uint32_t ray = 0;
   std::uint32_t triangle = 0;
@@ -53,7 +55,9 @@ class RaplasUnit {
     e.request = walk_.request(static_cast<int>(triangles_.count()) + kReserve);
     e.stack_level = walk_.level();
     e.push = decision(testers_.out()).push;
-    e.found = lines_.out();
+    e.found = found_.out().word;
+    e.found.points = grid_.points();
+    e.triangle_found = found_.out().valid && !e.found.last;
     e.stall = hits_.stall();
     e.issue = columns_.issue(e.stall);
     e.ray = columns_.ray();
@@ -87,22 +91,37 @@ class RaplasUnit {
     const bool row_taken = columns_.ready(e.stall);
     columns_.clock(rows_.valid(), rows_.front(), e.stall);
     const std::size_t row_count = rows_.count();
-    const RayBounds::Read read = selector_.read(row_count);
-    const bool word_taken = selector_.ready(row_count);
+    const RayBounds::Read read = selector_.read();
+    const bool cut_taken = selector_.ready(cuts_.valid(), cuts_.front(), row_count);
     rows_.clock(selector_.row_valid(), selector_.row(), row_taken);
-    const QueuedTriangle front = triangles_.front();
-    selector_.clock(triangles_.valid(), front, bounds_.row_bounds(front.bank), bounds_.bounds(), row_count);
-    const bool token_ready = triangles_.ready();
-    triangles_.clock(e.found.valid || control.token,
-                     {control.token, static_cast<std::uint32_t>(turn), e.found.triangle, 1, e.found.z,
-                      e.found.rows, e.found.columns},
-                     word_taken);
+    selector_.clock(cuts_.valid(), cuts_.front(), bounds_.bounds(), row_count);
+    const std::size_t cut_count = cuts_.count();
+    cuts_.clock(edges_.valid(), edges_.word(), cut_taken);
+    const QueuedTriangle& front = triangles_.front();
+    const LineBounds& front_bounds = bounds_.row_bounds(front.bank);
+    const bool word_taken = edges_.ready(triangles_.valid(), front, front_bounds, cut_count);
+    edges_.clock(triangles_.valid(), front, front_bounds, pencils_[front.bank].limits.error, cut_count);
+    const bool token_ready = triangles_.count() + kReserve < std::size_t{1} << kTriangleFifoDepthLog2;
+    const bool token = control.token && token_ready;
+    triangles_.clock(found_.out().valid, e.found, word_taken);
 
     // spheres
     const Tested tested = testers_.out();
     const bool walk_idle = walk_.idle();
-    lines_.clock(tested.request.valid && tested.request.vertex, tested.vertex.slot, tested.vertex.emit,
-                 tested.test, tested.request.rows, tested.request.columns, tested.vertex.triangle);
+    const bool vertex = tested.request.valid && tested.request.vertex;
+    const CrossingTriangle& crossing = lines_.out();
+    found_.clock({crossing.valid || token,
+                  {token,
+                   static_cast<std::uint32_t>(turn),
+                   crossing.triangle,
+                   crossing.z,
+                   crossing.rows,
+                   crossing.columns,
+                   {}}});
+    lines_.clock(vertex, tested.vertex.slot, tested.vertex.emit, tested.test, tested.request.rows,
+                 tested.request.columns, tested.vertex.triangle);
+    grid_.clock(vertex, tested.vertex.slot, tested.test.across, tested.test.down, tested.test.depth,
+                pencil.limits);
     const SceneWord& root = scene_->scene;
     walk_.clock(control.walk && root.count != 0,
                 {false, root.count, root.first, first_lines(pencil.pencil.rows),
@@ -118,7 +137,7 @@ class RaplasUnit {
 
  private:
   /// Triangles between the walk's count of objects under test and the queue's of triangles.
-  static constexpr int kReserve = 2;
+  static constexpr int kReserve = kVertexGridStages + 1;
   static constexpr std::size_t kTestStages = kMemoryStages + kPlaneTestStages + kDepthCodeStages;
   static constexpr std::size_t kPairStages = kMemoryStages + kRaySolverStages;
 
@@ -127,6 +146,10 @@ class RaplasUnit {
     FixedTest test;
     NodeWord node;
     VertexWord vertex;
+  };
+  struct Found {
+    bool valid = false;
+    QueuedTriangle word;
   };
   struct Solved {
     bool hit = false;
@@ -214,7 +237,11 @@ class RaplasUnit {
   TreeWalk walk_;
   Delay<Tested, kTestStages> testers_;
   TriangleLines lines_;
-  Fifo<QueuedTriangle, std::size_t{1} << kTriangleFifoDepthLog2> triangles_;
+  VertexGrid grid_;
+  Delay<Found, kVertexGridStages - 1> found_;
+  BlockFifo<QueuedTriangle, std::size_t{1} << kTriangleFifoDepthLog2> triangles_;
+  EdgeSetup edges_;
+  BlockFifo<CutTriangle, std::size_t{1} << kCutFifoDepthLog2> cuts_;
   RowSelector selector_;
   Fifo<QueuedRow, std::size_t{1} << kRowFifoDepthLog2> rows_;
   ColumnSelector columns_;

@@ -19,6 +19,7 @@ EXPECTED = {
     "latch_netlist": "latches: latch_netlist/",
     "dropped_others": "case without default",
     "wide_constant": "constant over 32 bits in quotes",
+    "signed_shift": "signed shift that fills with zeros",
 }
 
 

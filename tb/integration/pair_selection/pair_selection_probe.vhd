@@ -25,7 +25,7 @@ entity pair_selection_probe is
     update_ray_i    : in  std_ulogic_vector(2 * LINE_BITS - 1 downto 0);
     update_bound_i  : in  depth_t;
     valid_i         : in  std_ulogic;                                     -- as row_selector
-    word_i          : in  queued_triangle_word_t;
+    word_i          : in  cut_triangle_word_t;
     ready_o         : out std_ulogic;
     read_o          : out std_ulogic;
     row_valid_o     : out std_ulogic;
@@ -42,8 +42,6 @@ end entity pair_selection_probe;
 
 architecture rtl of pair_selection_probe is
 
-  signal pair_bank   : bank_t;
-  signal row_bounds  : line_bounds_t;
   signal read        : std_ulogic;
   signal read_bank   : bank_t;
   signal read_row    : line_t;
@@ -75,28 +73,26 @@ begin
       read_bank_i       => read_bank,
       read_row_i        => read_row,
       bounds_o          => bounds,
-      walk_bank_i       => pair_bank,
+      walk_bank_i       => read_bank,
       row_bounds_o      => open,
-      pair_bank_i       => pair_bank,
-      pair_row_bounds_o => row_bounds
+      pair_bank_i       => read_bank,
+      pair_row_bounds_o => open
     );
 
   row_selector_i : entity raplas.row_selector
     port map (
-      clk_i        => clk_i,
-      rst_i        => rst_i,
-      valid_i      => valid_i,
-      word_i       => word_i,
-      ready_o      => ready_o,
-      pair_bank_o  => pair_bank,
-      row_bounds_i => row_bounds,
-      read_o       => read,
-      bank_o       => read_bank,
-      row_o        => read_row,
-      bounds_i     => bounds,
-      row_valid_o  => row_valid,
-      row_word_o   => row_word,
-      row_count_i  => row_count
+      clk_i       => clk_i,
+      rst_i       => rst_i,
+      valid_i     => valid_i,
+      word_i      => word_i,
+      ready_o     => ready_o,
+      read_o      => read,
+      bank_o      => read_bank,
+      row_o       => read_row,
+      bounds_i    => bounds,
+      row_valid_o => row_valid,
+      row_word_o  => row_word,
+      row_count_i => row_count
     );
 
   rows_i : entity raplas.fifo

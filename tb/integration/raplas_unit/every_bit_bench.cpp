@@ -106,6 +106,11 @@ TEST_F(RaplasUnitBench, NeedsEveryBitOfEveryWord) {
       scene.nodes.push_back(node);
     }
     scene.scene = {words.bits(21), roots, 0};
+    pencil.planes.down = words.plane(scene.vertices, slack);
+    pencil.planes.across = words.plane(scene.vertices, slack);
+    pencil.limits.scale = words.bits(kGridExponentBits);
+    pencil.limits.least = words.bits(kGridExponentBits);
+    pencil.limits.error = words.bits(kGridErrorBits);
     load(scene);
     ASSERT_NO_FATAL_FAILURE(stream({pencil}, 1, Oracle::model));
   }

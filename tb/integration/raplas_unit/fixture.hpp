@@ -38,8 +38,10 @@ template <std::size_t kWords>
 [[nodiscard]] inline std::vector<Write> writes_of(const FixedPencilMemory<F>& pencil, std::size_t bank) {
   std::vector<Write> writes{write_of(Target::pencil, bank, pencil.pencil.pack()),
                             write_of(Target::limits, bank, pencil.limits.pack()),
-                            write_of(Target::plane, bank * 64 + 32, pencil.planes.near.pack()),
-                            write_of(Target::plane, bank * 64 + 33, pencil.planes.depth.pack())};
+                            write_of(Target::plane, bank * 64 + 16, pencil.planes.near.pack()),
+                            write_of(Target::plane, bank * 64 + 17, pencil.planes.down.pack()),
+                            write_of(Target::plane, bank * 64 + 48, pencil.planes.depth.pack()),
+                            write_of(Target::plane, bank * 64 + 49, pencil.planes.across.pack())};
   for (std::size_t r = 0; r < pencil.pencil.rows; ++r) {
     writes.push_back(write_of(Target::plane, bank * 64 + r, pencil.planes.rows[r].pack()));
     for (std::size_t c = 0; c < pencil.pencil.columns; ++c) {
@@ -48,7 +50,7 @@ template <std::size_t kWords>
     }
   }
   for (std::size_t c = 0; c < pencil.pencil.columns; ++c) {
-    writes.push_back(write_of(Target::plane, bank * 64 + 16 + c, pencil.planes.columns[c].pack()));
+    writes.push_back(write_of(Target::plane, bank * 64 + 32 + c, pencil.planes.columns[c].pack()));
   }
   return writes;
 }
@@ -184,7 +186,7 @@ class RaplasUnitBench : public testing::Test {
   RaplasUnit<F> model_;
   std::mt19937 random_{5};
 
-  static constexpr Skips kNoSkips{false, false, false, false, false, false, false};
+  static constexpr Skips kNoSkips{false, false, false, false, false, false, false, false};
 
   static void write(const Write& word) {
     apply(word);
@@ -225,6 +227,20 @@ class RaplasUnitBench : public testing::Test {
 
   static void expect(const char* name, std::uint64_t value) { expect_port(dut().port(name), value, name); }
 
+  static void expect_points(const std::array<GridPoint, 3>& points) {
+    PackedWord<3 * QueuedTriangle::kPointBits> word{};
+    dut().get(dut().port("found_points_o"), word);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const int lsb = static_cast<int>(2 - k) * QueuedTriangle::kPointBits;
+      const auto place = [](std::int32_t x) { return static_cast<std::uint32_t>(x) & 0xffffU; };
+      ASSERT_EQ(extract(word, {lsb + 2 * kGridBits, 1}), points[k].known ? 1U : 0U) << "found_points_o";
+      if (points[k].known) {
+        ASSERT_EQ(extract(word, {lsb + kGridBits, kGridBits}), place(points[k].across)) << "found_points_o";
+        ASSERT_EQ(extract(word, {lsb, kGridBits}), place(points[k].down)) << "found_points_o";
+      }
+    }
+  }
+
   void compare(const RaplasEdges<F>& e) {
     ASSERT_NO_FATAL_FAILURE(expect("busy_o", model_.busy()));
     ASSERT_NO_FATAL_FAILURE(expect("request_o", e.request.valid ? 1 : 0));
@@ -234,12 +250,13 @@ class RaplasUnitBench : public testing::Test {
       ASSERT_NO_FATAL_FAILURE(expect("object_o", e.request.address));
     }
     ASSERT_NO_FATAL_FAILURE(expect("push_o", e.push ? 1 : 0));
-    ASSERT_NO_FATAL_FAILURE(expect("triangle_found_o", e.found.valid ? 1 : 0));
-    if (e.found.valid) {
+    ASSERT_NO_FATAL_FAILURE(expect("triangle_found_o", e.triangle_found ? 1 : 0));
+    if (e.triangle_found) {
       ASSERT_NO_FATAL_FAILURE(expect("found_triangle_o", e.found.triangle));
       ASSERT_NO_FATAL_FAILURE(expect("found_rows_o", e.found.rows));
       ASSERT_NO_FATAL_FAILURE(expect("found_columns_o", e.found.columns));
       ASSERT_NO_FATAL_FAILURE(expect("found_z_o", e.found.z));
+      ASSERT_NO_FATAL_FAILURE(expect_points(e.found.points));
     }
     ASSERT_NO_FATAL_FAILURE(expect("issue_o", e.issue ? 1 : 0));
     ASSERT_NO_FATAL_FAILURE(expect("stall_o", e.stall ? 1 : 0));

@@ -1,4 +1,5 @@
 // depth_code against the numbers that its codes stand for, and against the model.
+#include <algorithm>
 #include <random>
 
 #include "raplas/fixed_point.hpp"
@@ -9,7 +10,7 @@ namespace {
 
 constexpr int kDistanceBits = 40;
 const int kRandomCases = Dut::simulator() == "ghdl" ? 20'000 : 200'000;
-const PortStage kStage{"z_o", kDepthCodeStages};
+const PortStage kPortStages[]{{"code_o", kDepthCodeStages}, {"z_o", kDepthCodeStages}};
 
 /// The distance that a code stands for, (1 + f / 2^10) 2^(e - 21) in units of 2^-34.
 std::int64_t value(std::int64_t code) {
@@ -18,25 +19,29 @@ std::int64_t value(std::int64_t code) {
   return code == 0 ? 0 : (kOne + code % kOne) << (exponent - kDepthBias + 34 - kDepthFractionBits);
 }
 
-/// The greatest code that stands for no more than the distance, less the margin.
-std::int64_t lower(std::int64_t distance) {
+/// The greatest code that stands for no more than the distance.
+std::int64_t greatest(std::int64_t distance) {
   std::int64_t low = (1 << kDepthFractionBits) - 1;  // codes that are too low, and too high
   std::int64_t high = (kDistanceBits - 13) << kDepthFractionBits;
   while (high - low > 1) {
     const std::int64_t middle = (low + high) / 2;
     (value(middle) <= distance ? low : high) = middle;
   }
-  return low < 1 << kDepthFractionBits ? 0 : low - kDepthMargin;
+  return low < 1 << kDepthFractionBits ? 0 : low;
 }
 
 class DepthCode : public testing::Test {
  protected:
   void check(std::int64_t distance) {
-    const std::int64_t code = lower(distance);
-    ASSERT_EQ(depth_lower(distance), code) << "the model, of " << distance;
+    const std::int64_t code = greatest(distance);
+    const std::int64_t lower = std::max<std::int64_t>(code - kDepthMargin, 0);
+    ASSERT_EQ(depth_code(distance), code) << "the model, of " << distance;
+    ASSERT_EQ(depth_lower(distance), lower) << "the model, of " << distance;
     dut().set(d_, static_cast<std::uint64_t>(distance) & ((std::uint64_t{1} << 48) - 1));
-    if (const auto due = board_.clock(static_cast<std::uint64_t>(code))) {
-      expect_port(z_, *due, "z_o");
+    if (const auto due =
+            board_.clock({static_cast<std::uint64_t>(code), static_cast<std::uint64_t>(lower)})) {
+      expect_port(code_, due->code, "code_o");
+      expect_port(z_, due->z, "z_o");
     }
   }
   void TearDown() override {  // the last results leave the pipeline
@@ -45,9 +50,15 @@ class DepthCode : public testing::Test {
     }
   }
 
+  struct Expected {
+    std::uint64_t code;
+    std::uint64_t z;
+  };
+
   PortId d_ = dut().port("d_i");
+  PortId code_ = dut().port("code_o");
   PortId z_ = dut().port("z_o");
-  Scoreboard<std::uint64_t> board_{kDepthCodeStages};
+  Scoreboard<Expected> board_{kDepthCodeStages};
 };
 
 TEST_F(DepthCode, IsTheFloorAtEveryCode) {

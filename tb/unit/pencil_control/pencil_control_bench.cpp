@@ -193,7 +193,7 @@ class PencilControlBench : public testing::Test {
     }
   }
 
-  /// Outputs for a pencil whose first plane is loaded in clock `begin`; gives the clock in which its token
+  /// Outputs for a pencil whose first planes are loaded in clock `begin`; gives the clock in which its token
   /// goes.
   std::size_t describe(std::vector<Clock>& expected, std::size_t begin, std::size_t bank,
                        std::size_t pencil) {
@@ -207,14 +207,12 @@ class PencilControlBench : public testing::Test {
       }
       ++k;
     };
-    for (std::uint32_t row = 0; row < sizes_of_run_[pencil].rows; ++row) {
-      load(row);
+    const Size& size = sizes_of_run_[pencil];
+    for (std::uint32_t line = 0; line < size.rows || line < size.columns; ++line) {
+      load(line);
     }
-    for (std::uint32_t column = 0; column < sizes_of_run_[pencil].columns; ++column) {
-      load(16 + column);
-    }
-    load(32);
-    load(33);
+    load(16);
+    load(17);
     k = first(k, [](const Clock& now) { return !now.clearing; });
     if (k < log_.size()) {
       expected[k].walk = true;

@@ -31,7 +31,7 @@ struct SkipCommand {
   Settings settings;
   std::filesystem::path folder;  ///< of the heat maps
   std::string name;              ///< of the scene in the figures; empty: the file's stem
-  int sample = 0;                ///< pencils that are walked with each skip
+  int sample = 0;                ///< pencils of a kind that are walked with each skip, about; 0: all
   int tile = 0;                  ///< one shadow pencil in so many rows and columns of pixels
   int rtl = 0;                   ///< pencils for model against RTL
   std::string command_line;      ///< for the figures file

@@ -1,4 +1,5 @@
-// The double-precision device: the sphere tree is walked for each ray.
+// The double-precision device: the sphere tree is walked for each ray, nearest spheres first.
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -28,10 +29,9 @@ class ReferenceDevice final : public IntersectionDevice {
       std::vector<Hit>& hits = all.emplace_back();
       hits.reserve(pencil.directions.size());
       for (const glm::dvec3& direction : pencil.directions) {
-        hits.push_back(trace_ray(pencil.origin, direction));
+        hits.push_back(trace_ray(pencil, direction));
         count(Counter::hits) += hits.back().hit ? 1U : 0U;
       }
-      drop_far_hits(pencil, hits);
     }
     return all;
   }
@@ -39,51 +39,75 @@ class ReferenceDevice final : public IntersectionDevice {
   [[nodiscard]] Counters counters() const override { return counters_; }
 
  private:
+  /// Children of a sphere that the ray meets, or triangles of one without.
+  struct Waiting {
+    double entry;  ///< t at which the ray enters the sphere
+    bool leaf;
+    std::uint32_t first;
+    std::uint32_t count;
+  };
+
   std::uint64_t& count(Counter counter) { return counters_[static_cast<std::size_t>(counter)]; }
 
-  Hit trace_ray(const glm::dvec3& origin, const glm::dvec3& direction) {
+  /// Nearest spheres first, none beyond Pencil::far or the nearest hit so far; of a pencil with any_hit the
+  /// first hit is the result.
+  Hit trace_ray(const Pencil& pencil, const glm::dvec3& direction) {
+    const double along = glm::dot(pencil.axis, direction);
+    double limit = pencil.far / along;  // no hit beyond this t matters
     Hit best;
-    stack_.assign(1, {scene_.root_first, scene_.root_count});
+    stack_.assign(1, {0, false, scene_.root_first, scene_.root_count});
     while (!stack_.empty()) {
-      const auto [first, number] = stack_.back();
+      const Waiting range = stack_.back();
       stack_.pop_back();
-      count(Counter::spheres_tested) += number;
-      for (std::uint32_t k = first; k < first + number; ++k) {
-        const SphereNode& node = scene_.nodes[k];
-        if (!meets(node, origin, direction, best)) {
+      if (range.entry > limit * (1 + kSlack)) {
+        continue;
+      }
+      if (!range.leaf) {
+        push_met(range, pencil.origin, direction, limit);
+        continue;
+      }
+      for (std::uint32_t k = range.first; k < range.first + range.count; ++k) {
+        count(Counter::pairs_tested)++;
+        const Hit hit = intersect(scene_.piece(k).triangle, pencil.origin, direction);
+        if (!hit.hit || hit.t() * along >= pencil.far || !nearer(hit, best)) {
           continue;
         }
-        if (!node.leaf) {
-          stack_.emplace_back(node.first, node.count);
-          continue;
-        }
-        count(Counter::pairs_tested) += node.count;
-        for (std::uint32_t t = node.first; t < node.first + node.count; ++t) {
-          intersect(t, origin, direction, best);
+        best = hit;
+        limit = hit.t();
+        if (pencil.any_hit) {
+          return best;
         }
       }
     }
     return best;
   }
 
-  /// Does the ray meet the sphere, in front of the origin and no farther than the best hit?
-  static bool meets(const SphereNode& node, const glm::dvec3& origin, const glm::dvec3& direction,
-                    const Hit& best) {
-    const glm::dvec3 to_centre = node.centre - origin;
-    const double along = glm::dot(to_centre, direction);
-    const glm::dvec3 across = to_centre - along * direction;
-    const double radius = node.radius * (1 + kSlack) + kSlack;
-    const double half2 = radius * radius - glm::dot(across, across);
-    if (half2 < 0) {
-      return false;
+  /// Pushes the children that the ray meets in front of its origin and within `limit`, the nearest last.
+  void push_met(const Waiting& range, const glm::dvec3& origin, const glm::dvec3& direction, double limit) {
+    const std::size_t siblings = stack_.size();
+    count(Counter::spheres_tested) += range.count;
+    for (std::uint32_t k = range.first; k < range.first + range.count; ++k) {
+      const SphereNode& node = scene_.nodes[k];
+      const glm::dvec3 to_centre = node.centre - origin;
+      const double middle = glm::dot(to_centre, direction);
+      const glm::dvec3 across = to_centre - middle * direction;
+      const double radius = node.radius * (1 + kSlack) + kSlack;
+      const double half2 = radius * radius - glm::dot(across, across);
+      if (half2 < 0) {
+        continue;
+      }
+      const double half = std::sqrt(half2);
+      if (middle + half >= 0 && middle - half <= limit * (1 + kSlack)) {
+        stack_.push_back({middle - half, node.leaf, node.first, node.count});
+      }
     }
-    const double half = std::sqrt(half2);
-    return along + half >= 0 && (!best.hit || (along - half) * best.d <= best.t_scaled * (1 + kSlack));
+    std::sort(stack_.begin() + static_cast<std::ptrdiff_t>(siblings), stack_.end(),
+              [](const Waiting& a, const Waiting& b) { return a.entry > b.entry; });
   }
 
   /// Moeller-Trumbore multiplied through by N.D (equations 5 and 6 of the paper), with the sign of N.D
-  /// carried into every term. Nearest by t1' d2 < t2' d1; the lower triangle ID wins a tie.
-  void intersect(std::uint32_t id, const glm::dvec3& origin, const glm::dvec3& direction, Hit& best) const {
+  /// carried into every term.
+  [[nodiscard]] Hit intersect(std::uint32_t id, const glm::dvec3& origin, const glm::dvec3& direction) const {
     const Triangle& triangle = scene_.triangles[id];
     const glm::dvec3& normal = normals_[id];
     const double n_dot_d = glm::dot(normal, direction);
@@ -96,21 +120,22 @@ class ReferenceDevice final : public IntersectionDevice {
                   sign * n_dot_d,
                   -sign * glm::dot(d_cross_t, triangle.e2),
                   sign * glm::dot(d_cross_t, triangle.e1)};
-    if (!(hit.d > 0 && hit.t_scaled > 0 && hit.u_scaled >= 0 && hit.v_scaled >= 0 &&
-          hit.u_scaled + hit.v_scaled <= hit.d)) {
-      return;
-    }
+    const bool inside = hit.d > 0 && hit.t_scaled > 0 && hit.u_scaled >= 0 && hit.v_scaled >= 0 &&
+                        hit.u_scaled + hit.v_scaled <= hit.d;
+    return inside ? hit : Hit{};
+  }
+
+  /// Nearest by t1' d2 < t2' d1; the lower triangle ID wins a tie.
+  static bool nearer(const Hit& hit, const Hit& best) {
     const double mine = hit.t_scaled * best.d;
     const double theirs = best.t_scaled * hit.d;
-    if (!best.hit || mine < theirs || (mine == theirs && id < best.triangle)) {
-      best = hit;
-    }
+    return !best.hit || mine < theirs || (mine == theirs && hit.triangle < best.triangle);
   }
 
   DeviceScene scene_;
   std::vector<glm::dvec3> normals_;
   Counters counters_{};
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> stack_;
+  std::vector<Waiting> stack_;
 };
 
 }  // namespace

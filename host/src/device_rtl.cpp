@@ -201,26 +201,33 @@ class RtlUnit {
   }
 
   void write_pencil_word(const FixedPencilMemory<Fp24>& pencil, std::size_t bank, std::size_t word) {
-    constexpr std::size_t kLines = 64;  // places of a bank in the Plane Memory
     const std::size_t rows = pencil.pencil.rows;
     const std::size_t columns = pencil.pencil.columns;
-    const auto plane = [&](std::size_t line, const FixedPlane& p) {
-      unit_->set_write(Target::plane, bank * kLines + line, p.pack());
+    const auto plane = [&](std::size_t side, std::size_t index, const FixedPlane& p) {
+      unit_->set_write(Target::plane, (bank * 2 + side) << kPlaneIndexBits | index, p.pack());
     };
+    constexpr std::size_t kRowSide = 0;
+    constexpr std::size_t kColumnSide = 1;
     if (word == 0) {
       unit_->set_write(Target::pencil, bank, pencil.pencil.pack());
     } else if (word == 1) {
       unit_->set_write(Target::limits, bank, pencil.limits.pack());
     } else if (word == 2) {
-      plane(kMaxRows + kMaxColumns, pencil.planes.near);
+      plane(kRowSide, kAxisPlane, pencil.planes.near);
     } else if (word == 3) {
-      plane(kMaxRows + kMaxColumns + 1, pencil.planes.depth);
-    } else if (word < 4 + rows) {
-      plane(word - 4, pencil.planes.rows[word - 4]);
-    } else if (word < 4 + rows + columns) {
-      plane(kMaxRows + word - 4 - rows, pencil.planes.columns[word - 4 - rows]);
+      plane(kRowSide, kGridPlane, pencil.planes.down);
+    } else if (word == 4) {
+      plane(kColumnSide, kAxisPlane, pencil.planes.depth);
+    } else if (word == 5) {
+      plane(kColumnSide, kGridPlane, pencil.planes.across);
+    } else if (word < kPencilHead + rows) {
+      const std::size_t r = word - kPencilHead;
+      plane(kRowSide, r, pencil.planes.rows[r]);
+    } else if (word < kPencilHead + rows + columns) {
+      const std::size_t c = word - kPencilHead - rows;
+      plane(kColumnSide, c, pencil.planes.columns[c]);
     } else {
-      const std::size_t k = word - 4 - rows - columns;
+      const std::size_t k = word - kPencilHead - rows - columns;
       const std::size_t ray = k / columns * kMaxColumns + k % columns;
       unit_->set_write(Target::ray, bank * kMaxRays + ray, pack_ray(pencil.rays[ray]));
     }

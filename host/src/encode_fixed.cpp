@@ -54,7 +54,7 @@ class SceneEncoder {
 
   FixedScene run() {
     memory_.nodes.resize(scene_.nodes.size());
-    memory_.vertices.reserve(2 * scene_.triangles.size());
+    memory_.vertices.reserve(2 * scene_.piece_count());
     encode_range(scene_.root_first, scene_.root_count);
     constexpr std::size_t kMaxWords = std::size_t{1} << kIdBits;
     if (memory_.vertices.size() > kMaxWords) {
@@ -113,10 +113,11 @@ class SceneEncoder {
     const SphereNode& node = scene_.nodes[k];
     points_.clear();
     triangles_.clear();
-    for (std::uint32_t t = node.first; t < node.first + node.count; ++t) {
-      const TrianglePoints points = points_of(scene_.triangles[t]);
+    for (std::uint32_t p = node.first; p < node.first + node.count; ++p) {
+      const Piece piece = scene_.piece(p);
+      const PiecePoints points = points_of(scene_.triangles[piece.triangle], piece);
       FixedTriangle& triangle = triangles_.emplace_back();
-      triangle.id = t;
+      triangle.id = piece.triangle;
       for (std::size_t corner = 0; corner < 3; ++corner) {
         triangle.corners[corner] = vertex_at(k, points.vertices[corner], points.stored[corner]);
       }

@@ -4,16 +4,29 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <stdexcept>
 
 #include "raplas/encode.hpp"
 #include "raplas/encode_fixed.hpp"
+#include "raplas/scan_lines.hpp"
 
 namespace raplas {
 namespace {
 
 constexpr double kUnit = 1.0 / (1 << kCoordinateFraction);
 constexpr double kOffsetUnit = kUnit * kUnit;
+
+/// Units of a place on the grid.
+constexpr double kPerLine = 1 << kGridFraction;
+
+/// Of vertices near the middle of the grid, in these units: what their places are rounded by.
+constexpr double kPlaceError = 3;
+
+/// A depth code's exponent: vertices nearer than that may be left without a place on the grid.
+constexpr double kUsualDepth = kDepthBias - 3;
+
+constexpr double kNone = std::numeric_limits<double>::infinity();
 
 /// Rays end on the sphere of this radius around zero: more than the corners of triangles as stored.
 constexpr double kReach = 1 + 0x1p-12;
@@ -67,6 +80,8 @@ class PencilEncoder {
     encode_rays();
     encode_lines();
     encode_depths();
+    encode_front();
+    encode_grid();
     words_.limits.any_hit = pencil_.any_hit;
     words_.limits.far = far_code();
     return {words_, t_scale_};
@@ -160,9 +175,125 @@ class PencilEncoder {
     const double slack = words_.limits.slack * kUnit;
     const double at_origin = glm::dot(normal, origin_);
     const double longest = kReach + glm::length(origin_);
-    words_.planes.near = {axis, offset_of(vertex_error_ - at_origin - slack + kOffsetUnit + kDoubleError)};
+    words_.planes.near = {axis, near_offset(normal)};
     words_.planes.depth = {axis, offset_of(slack - at_origin - vertex_error_ - longest * (most - 1) -
                                            kOffsetUnit - kDoubleError)};
+  }
+
+  /// The near plane lies across `front` instead, if all rays as stored go along it.
+  void encode_front() {
+    const FixedVec3 front = lattice_normal(pencil_.front);
+    const glm::dvec3 normal = value_of(front);
+    for (int r = 0; r < pencil_.rows; ++r) {
+      for (int c = 0; c < pencil_.columns; ++c) {
+        const glm::dvec3& direction = directions_[index(r, c)];
+        if (!(glm::dot(normal, direction) > kDoubleError * glm::length(direction))) {
+          return;
+        }
+      }
+    }
+    words_.planes.near = {front, near_offset(normal)};
+  }
+
+  /// What is not near is behind the origin, whatever rounding has done to it.
+  [[nodiscard]] std::int64_t near_offset(const glm::dvec3& normal) const {
+    const double slack = words_.limits.slack * kUnit;
+    return offset_of(vertex_error_ - glm::dot(normal, origin_) - slack + kOffsetUnit + kDoubleError);
+  }
+
+  /// Planes and register of the scan lines: docs/scan_lines.md. A pencil of one row or one column, or whose
+  /// lines are too narrow for the vertices' words, goes without.
+  void encode_grid() {
+    if (pencil_.rows < 2 || pencil_.columns < 2 || words_.planes.depth.normal == FixedVec3{}) {
+      return;
+    }
+    const glm::dvec3 first = ray_at(0, 0);
+    const glm::dvec3 row_step = (ray_at(pencil_.rows - 1, 0) - first) / (pencil_.rows - 1.0);
+    const glm::dvec3 column_step = (ray_at(0, pencil_.columns - 1) - first) / (pencil_.columns - 1.0);
+    // of the ray (r, c), at a depth of 1: its row, or column, from the middle of the grid
+    const auto place = [&](const glm::dvec3& step, const glm::dvec3& other) {
+      const glm::dvec3 normal = glm::cross(other, first);
+      return normal / glm::dot(normal, step) - double(kGridOrigin) * pencil_.axis;
+    };
+    const glm::dvec3 down = place(row_step, column_step);
+    const glm::dvec3 across = place(column_step, row_step);
+    const double longest = std::max(glm::length(down), glm::length(across)) * (1 + 0x1p-14);
+    const int scale = std::max(0, std::ilogb(longest) + 1);
+    if (!(longest < std::ldexp(1.0, kNoGrid - kGridScaleBias))) {  // so is none
+      return;
+    }
+    words_.planes.down = grid_plane(down, scale);
+    words_.planes.across = grid_plane(across, scale);
+    words_.limits.scale = static_cast<std::uint32_t>(scale + kGridScaleBias);
+    const PlaceError off = place_error(scale);
+    for (std::uint32_t error = 0; error < 1U << kGridErrorBits; ++error) {
+      const double allowed = (std::ldexp(4.0, static_cast<int>(error)) - kPlaceError) / kPerLine;
+      const double depth = allowed > off.anywhere ? off.at_depth_1 / (allowed - off.anywhere) : kNone;
+      const double least = std::max<double>(words_.limits.scale, std::ceil(std::log2(depth)) + kDepthBias);
+      if (least < kNoGrid) {
+        words_.limits.least = static_cast<std::uint32_t>(least);
+        words_.limits.error = error;
+        if (least <= kUsualDepth) {
+          return;
+        }
+      }
+    }
+  }
+
+  /// The ray's direction of depth 1, before it is rounded.
+  [[nodiscard]] glm::dvec3 ray_at(int row, int column) const {
+    const std::size_t ray = index(row, column);
+    const auto unrounded = static_cast<std::size_t>(row) * static_cast<std::size_t>(pencil_.columns) +
+                           static_cast<std::size_t>(column);
+    return pencil_.directions[unrounded] * t_scale_[ray];
+  }
+
+  /// The testers add a vertex' reach, which is the slack, to the distance from this plane.
+  [[nodiscard]] FixedPlane grid_plane(const glm::dvec3& place, int scale) const {
+    FixedPlane plane;
+    for (std::size_t k = 0; k < 3; ++k) {
+      plane.normal[k] =
+          static_cast<std::int32_t>(std::lrint(std::ldexp(place[static_cast<int>(k)], -scale) / kUnit));
+    }
+    const double slack = words_.limits.slack * kUnit;
+    plane.offset = offset_of(-glm::dot(value_of(plane.normal), origin_) - slack);
+    return plane;
+  }
+
+  /// In lines: what a place is off by is at most at_depth_1 / depth + anywhere.
+  struct PlaceError {
+    double at_depth_1;
+    double anywhere;
+  };
+
+  /// How far a point that lies within vertex_error of a ray comes from this ray's place on the grid. The
+  /// words' own rounding is in it, that of the unit isn't.
+  [[nodiscard]] PlaceError place_error(int scale) const {
+    const double slack = words_.limits.slack * kUnit;
+    const auto start = [&](const FixedPlane& plane) {
+      return glm::dot(value_of(plane.normal), origin_) + static_cast<double>(plane.offset) * kOffsetUnit;
+    };
+    const glm::dvec3 axis = value_of(words_.planes.depth.normal);
+    const double depth_start = start(words_.planes.depth) - slack;
+    PlaceError most{0, 0};
+    const auto grow = [&](const FixedPlane& plane, const glm::dvec3& direction, int line) {
+      // a ray's point of tested depth z: plane_start + (z - depth_start) slope, a place off by that less line
+      // z
+      const glm::dvec3 normal = std::ldexp(1.0, scale) * value_of(plane.normal);
+      const double plane_start = std::ldexp(start(plane) + slack, scale);
+      const double slope = glm::dot(normal, direction) / glm::dot(axis, direction);
+      const double apart = std::abs(plane_start - depth_start * slope);
+      const double ends = vertex_error_ * (glm::length(normal) + std::abs(slope));
+      most.at_depth_1 = std::max(most.at_depth_1, apart + ends + kDoubleError);
+      most.anywhere = std::max(most.anywhere, std::abs(slope - line) + kDoubleError);
+    };
+    for (int r = 0; r < pencil_.rows; ++r) {
+      for (int c = 0; c < pencil_.columns; ++c) {
+        grow(words_.planes.down, directions_[index(r, c)], r - kGridOrigin);
+        grow(words_.planes.across, directions_[index(r, c)], c - kGridOrigin);
+      }
+    }
+    return most;
   }
 
   static std::int64_t offset_of(double offset) {

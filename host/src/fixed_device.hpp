@@ -13,11 +13,14 @@
 
 namespace raplas {
 
-/// Words of a pencil, in the order in which FixedDevice writes them: registers, planes, rays of its rows.
+/// Words of a pencil before those of its lines: two registers, and two planes of each side.
+inline constexpr std::size_t kPencilHead = 6;
+
+/// Words of a pencil, in the order in which FixedDevice writes them: head, rows, columns, rays of its rows.
 [[nodiscard]] inline std::size_t pencil_words(const FixedPencilMemory<Fp24>& pencil) {
   const std::size_t rows = pencil.pencil.rows;
   const std::size_t columns = pencil.pencil.columns;
-  return 4 + rows + columns + rows * columns;
+  return kPencilHead + rows + columns + rows * columns;
 }
 
 /// What the unit would do with the pencil and a sphere of the root range: walk on, or drop the sphere.

@@ -74,6 +74,9 @@ Settings resolve(const CommandLine& line) {
                      line.shadow};
   settings.flat = line.structure.value_or(paper ? "flat" : "tree") == "flat";
   settings.tree.leaf_size = line.leaf;
+  if (paper) {
+    settings.tree.longest_edge = kWholeTriangles;
+  }
   settings.device.profile = paper ? Profile::paper : Profile::raplas;
   if (line.memories == "chip") {
     settings.device.sphere_depth = kChipDepth;
@@ -119,13 +122,12 @@ int parse_and_run(int argc, char** argv) {
   add_common_options(*skip, skip_line);
   SkipCommand skipping;
   std::string maps = "skip";
-  skipping.sample = 256;
   skipping.tile = kMaxRows;
   skip->add_option("-o,--output", maps, "folder for the heat maps")->capture_default_str();
   skip->add_option("--name", skipping.name, "of the scene in the figures (default: the file's)");
-  skip->add_option("--sample", skipping.sample, "pencils of a kind that are walked with each skip, about")
-      ->check(CLI::Range(1, kMaxSample))
-      ->capture_default_str();
+  skip->add_option("--sample", skipping.sample,
+                   "pencils of a kind that are walked with each skip, about (default: all)")
+      ->check(CLI::Range(1, kMaxSample));
   skip->add_option("--tile", skipping.tile, "one shadow pencil in so many rows and columns of pixels")
       ->check(CLI::Range(1, kMaxSample))
       ->capture_default_str();

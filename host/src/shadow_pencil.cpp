@@ -35,6 +35,7 @@ Grid shadow_grid(const AreaLight& light, int size, int x, int y) {
 
 Pencil shadow_pencil(const SurfacePoint& point, const Grid& light) {
   Pencil pencil = make_pencil(shadow_origin(point), light);
+  pencil.front = point.facing;
   pencil.any_hit = true;
   pencil.far = kBeforeLight * glm::dot(pencil.axis, light.first - pencil.origin);
   return pencil;

@@ -45,7 +45,6 @@ struct Measured {
   std::string kind;
   std::vector<Pencil> pencils;
   std::size_t in_row = 1;  ///< pencils in a row of the picture
-  std::size_t sampled = 0;
   SkipCounts conventional;
   PaperRun paper;
   SkipSteps steps;
@@ -105,18 +104,19 @@ void measure(const Prepared& prepared, const SkipCommand& command, Measured& m) 
     Progress progress(m.kind + ", clocked model", quiet);
     m.stream = run_stream(scene, m.pencils, show(progress));
   }
-  const std::vector<std::size_t> sample =
-      every_kth(m.pencils.size(), static_cast<std::size_t>(command.sample), m.in_row);
-  m.sampled = sample.size();
+  const std::size_t wanted =
+      command.sample == 0 ? m.pencils.size() : static_cast<std::size_t>(command.sample);
+  const std::vector<std::size_t> sample = every_kth(m.pencils.size(), wanted, m.in_row);
   std::vector<Pencil> pencils;
   std::vector<std::vector<Hit>> hits;
-  ConventionalRays conventional(scene);
   for (const std::size_t k : sample) {
     pencils.push_back(m.pencils[k]);
     hits.push_back(m.stream.hits[k]);
-    conventional.trace(m.pencils[k]);
   }
-  m.conventional = conventional.counts();
+  {
+    Progress progress(m.kind + ", conventional", quiet);
+    m.conventional = run_conventional(scene, pencils, show(progress));
+  }
   {
     Progress progress(m.kind + ", walks", quiet);
     m.steps = run_steps(scene, pencils, hits, show(progress));
@@ -187,6 +187,8 @@ void add_figures(Figures& figures, const std::string& scene, const Measured& m, 
   add_counts(figures, step + ".clocked", m.stream.counts);
   figures.add(step + ".clocked.clocks_per_ray", per(m.stream.busy.clocks, m.stream.counts.rays),
               "clocks/ray");
+  figures.add("skip" + tail + ".pencils", m.stream.counts.pencils, "pencils");
+  figures.add("skip" + tail + ".walked", m.steps.steps.front().counts.pencils, "pencils");
   figures.add("skip" + tail + ".not_sent_percent", 100 * per(m.stream.not_sent, m.stream.counts.pencils),
               "% of pencils");
   figures.add("skip" + tail + ".compared", m.steps.rays_compared, "results");

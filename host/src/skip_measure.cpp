@@ -2,20 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <glm/geometric.hpp>
-#include <limits>
 #include <memory>
 #include <numeric>
 
 #include "model_unit.hpp"
 #include "raplas/encode.hpp"
+#include "raplas/sphere_tree.hpp"
 
 namespace raplas {
 namespace {
-
-/// The double-precision sphere test loses nothing by rounding if radii are this much larger.
-constexpr double kSlack = 1e-9;
 
 constexpr int kPaperSide = 4;
 
@@ -40,8 +35,12 @@ Pencil part_of(const Pencil& whole, int row, int column) {
   return part;
 }
 
-/// The leaves of a tree as a flat list.
-DeviceScene flat_list(const DeviceScene& tree) {
+/// The leaves of a tree of whole triangles as a flat list.
+DeviceScene flat_list(const DeviceScene& scene) {
+  TreeOptions options;
+  options.longest_edge = kWholeTriangles;
+  DeviceScene tree = scene.pieces.empty() ? scene : build_tree(scene.triangles, options).scene;
+  tree.max_origin = scene.max_origin;
   DeviceScene flat;
   flat.triangles = tree.triangles;
   flat.max_origin = tree.max_origin;
@@ -82,7 +81,7 @@ struct Variant {
 };
 
 std::vector<Variant> variants(bool any_hit) {
-  Skips skips{false, false, false, false, false, false, false};
+  Skips skips{false, false, false, false, false, false, false, false};
   std::vector<Variant> list{{"flat", "16x16, flat list", skips}};
   const auto next = [&](const char* key, const char* title, bool Skips::*skip) {
     skips.*skip = true;
@@ -94,10 +93,50 @@ std::vector<Variant> variants(bool any_hit) {
   next("nearest", "+ nearest first", &Skips::nearest_first);
   next("hidden", "+ hidden", &Skips::hidden);
   next("rectangles", "+ rectangles", &Skips::rectangles);
+  next("scan_lines", "+ scan lines", &Skips::scan_lines);
   if (any_hit) {
     next("ended", "+ ended", &Skips::ended);
   }
   return list;
+}
+
+void add(SkipCounts& sum, const SkipCounts& counts) {
+  sum.pencils += counts.pencils;
+  sum.rays += counts.rays;
+  sum.spheres += counts.spheres;
+  sum.vertices += counts.vertices;
+  sum.pairs += counts.pairs;
+}
+
+/// Walks one pencil with one skip more each time and compares; `expected`: of the clocked unit.
+SkipSteps walk_steps(const FixedScene& scene, const Pencil& pencil, std::span<const Hit> expected,
+                     const std::vector<Variant>& list) {
+  const FixedPencil words = encode_fixed(pencil, scene.vertex_error);
+  const std::size_t rays = pencil.directions.size();
+  const auto columns = static_cast<std::size_t>(pencil.columns);
+  const auto ray_id = [&](std::size_t ray) { return ray / columns * kMaxColumns + ray % columns; };
+  SkipSteps result;
+  const auto compare = [&](const auto& mine, const auto& theirs) {
+    ++result.rays_compared;
+    result.rays_different += (pencil.any_hit ? mine.hit == theirs.hit : mine == theirs) ? 0U : 1U;
+  };
+  FixedTrace<Fp24>::Results first{};
+  for (const Variant& v : list) {
+    const FixedTrace<Fp24> trace(scene.memory, words.memory, v.skips);
+    const FixedCounts& counts = trace.counts();
+    result.steps.push_back({v.key, v.title, {1, rays, counts.spheres, counts.vertices, counts.pairs}});
+    if (result.steps.size() == 1) {
+      first = trace.results();
+      continue;
+    }
+    for (std::size_t ray = 0; ray < rays; ++ray) {
+      compare(trace.results()[ray_id(ray)], first[ray_id(ray)]);
+    }
+  }
+  for (std::size_t ray = 0; ray < rays; ++ray) {
+    compare(decode_fixed(first[ray_id(ray)], words, ray_id(ray)), expected[ray]);
+  }
+  return result;
 }
 
 /// ModelUnit with an eye on what its parts take in each clock.
@@ -173,80 +212,19 @@ std::vector<std::size_t> every_kth(std::size_t count, std::size_t wanted, std::s
   return taken;
 }
 
-ConventionalRays::ConventionalRays(const DeviceScene& scene) : scene_(scene) {}
-
-void ConventionalRays::trace(const Pencil& pencil) {
-  ++counts_.pencils;
-  for (const glm::dvec3& direction : pencil.directions) {
-    ++counts_.rays;
-    trace_ray(pencil.origin, direction, pencil.far / glm::dot(pencil.axis, direction), pencil.any_hit);
+SkipCounts run_conventional(const DeviceScene& scene, std::span<const Pencil> pencils,
+                            const ShowProgress& progress) {
+  const auto device = make_device("reference", {});
+  device->load(scene);
+  SkipCounts counts;
+  for (const Pencil& pencil : pencils) {
+    counts.rays += device->trace(pencil).size();
+    ++counts.pencils;
+    progress(static_cast<double>(counts.pencils) / static_cast<double>(pencils.size()));
   }
-}
-
-void ConventionalRays::trace_ray(const glm::dvec3& origin, const glm::dvec3& direction, double limit,
-                                 bool any_hit) {
-  stack_.assign(1, {false, scene_.root_first, scene_.root_count, 0});
-  while (!stack_.empty()) {
-    const Waiting range = stack_.back();
-    stack_.pop_back();
-    if (range.entry > limit) {
-      continue;
-    }
-    if (range.leaf) {
-      for (std::uint32_t k = range.first; k < range.first + range.count; ++k) {
-        ++counts_.pairs;
-        const double t = intersect(k, origin, direction);
-        if (t < limit) {
-          if (any_hit) {
-            return;
-          }
-          limit = t;
-        }
-      }
-      continue;
-    }
-    const auto siblings = static_cast<std::ptrdiff_t>(stack_.size());
-    for (std::uint32_t k = range.first; k < range.first + range.count; ++k) {
-      push_met(k, origin, direction, limit);
-    }
-    std::sort(stack_.begin() + siblings, stack_.end(),
-              [](const Waiting& a, const Waiting& b) { return a.entry > b.entry; });
-  }
-}
-
-void ConventionalRays::push_met(std::uint32_t k, const glm::dvec3& origin, const glm::dvec3& direction,
-                                double limit) {
-  ++counts_.spheres;
-  const SphereNode& node = scene_.nodes[k];
-  const glm::dvec3 to_centre = node.centre - origin;
-  const double along = glm::dot(to_centre, direction);
-  const glm::dvec3 across = to_centre - along * direction;
-  const double radius = node.radius * (1 + kSlack) + kSlack;
-  const double half2 = radius * radius - glm::dot(across, across);
-  if (half2 < 0) {
-    return;
-  }
-  const double half = std::sqrt(half2);
-  if (along + half >= 0 && along - half <= limit) {
-    stack_.push_back({node.leaf, node.first, node.count, along - half});
-  }
-}
-
-/// Moeller's test; infinity for no hit.
-double ConventionalRays::intersect(std::uint32_t k, const glm::dvec3& origin,
-                                   const glm::dvec3& direction) const {
-  constexpr double kNone = std::numeric_limits<double>::infinity();
-  const Triangle& triangle = scene_.triangles[k];
-  const glm::dvec3 normal = glm::cross(triangle.e1, triangle.e2);
-  const double n_dot_d = glm::dot(normal, direction);
-  const double sign = n_dot_d < 0 ? -1 : 1;
-  const glm::dvec3 to = triangle.v0 - origin;
-  const glm::dvec3 d_cross_t = glm::cross(direction, to);
-  const double d = sign * n_dot_d;
-  const double t = sign * glm::dot(normal, to);
-  const double u = -sign * glm::dot(d_cross_t, triangle.e2);
-  const double v = sign * glm::dot(d_cross_t, triangle.e1);
-  return d > 0 && t > 0 && u >= 0 && v >= 0 && u + v <= d ? t / d : kNone;
+  counts.spheres = device->counters()[static_cast<std::size_t>(Counter::spheres_tested)];
+  counts.pairs = device->counters()[static_cast<std::size_t>(Counter::pairs_tested)];
+  return counts;
 }
 
 PaperRun run_paper(const DeviceScene& scene, std::span<const Pencil> pencils, std::size_t row,
@@ -280,44 +258,21 @@ PaperRun run_paper(const DeviceScene& scene, std::span<const Pencil> pencils, st
 SkipSteps run_steps(const DeviceScene& scene, std::span<const Pencil> pencils,
                     std::span<const std::vector<Hit>> expected, const ShowProgress& progress) {
   const FixedScene words = encode_fixed(scene);
-  const bool any_hit = !pencils.empty() && pencils.front().any_hit;
-  const std::vector<Variant> list = variants(any_hit);
+  const std::vector<Variant> list = variants(!pencils.empty() && pencils.front().any_hit);
+  std::vector<SkipSteps> walked(pencils.size());
+  for_each_parallel(
+      pencils.size(), [&](std::size_t k) { walked[k] = walk_steps(words, pencils[k], expected[k], list); },
+      progress);
   SkipSteps result;
   for (const Variant& v : list) {
     result.steps.push_back({v.key, v.title, {}});
   }
-  for (std::size_t k = 0; k < pencils.size(); ++k) {
-    const FixedPencil pencil = encode_fixed(pencils[k], words.vertex_error);
-    FixedTrace<Fp24>::Results first{};
-    const auto columns = static_cast<std::size_t>(pencils[k].columns);
-    const std::size_t rays = pencils[k].directions.size();
-    const auto ray_id = [&](std::size_t ray) { return ray / columns * kMaxColumns + ray % columns; };
+  for (const SkipSteps& one : walked) {
     for (std::size_t v = 0; v < list.size(); ++v) {
-      const FixedTrace<Fp24> trace(words.memory, pencil.memory, list[v].skips);
-      SkipCounts& counts = result.steps[v].counts;
-      ++counts.pencils;
-      counts.rays += rays;
-      counts.spheres += trace.counts().spheres;
-      counts.vertices += trace.counts().vertices;
-      counts.pairs += trace.counts().pairs;
-      if (v == 0) {
-        first = trace.results();
-        continue;
-      }
-      for (std::size_t ray = 0; ray < rays; ++ray) {
-        const ResultWord<Fp24>& mine = trace.results()[ray_id(ray)];
-        const ResultWord<Fp24>& theirs = first[ray_id(ray)];
-        ++result.rays_compared;
-        result.rays_different += (any_hit ? mine.hit == theirs.hit : mine == theirs) ? 0U : 1U;
-      }
+      add(result.steps[v].counts, one.steps[v].counts);
     }
-    for (std::size_t ray = 0; ray < rays; ++ray) {
-      const Hit mine = decode_fixed(first[ray_id(ray)], pencil, ray_id(ray));
-      const Hit& theirs = expected[k][ray];
-      ++result.rays_compared;
-      result.rays_different += (any_hit ? mine.hit == theirs.hit : mine == theirs) ? 0U : 1U;
-    }
-    progress(static_cast<double>(k + 1) / static_cast<double>(pencils.size()));
+    result.rays_compared += one.rays_compared;
+    result.rays_different += one.rays_different;
   }
   return result;
 }

@@ -3,17 +3,14 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "parallel.hpp"
 #include "raplas/device.hpp"
 
 namespace raplas {
-
-/// Share of a piece of work done, 0 .. 1.
-using ShowProgress = std::function<void(double)>;
 
 /// Tests, and what they served.
 struct SkipCounts {
@@ -36,30 +33,9 @@ struct BusyClocks {
 /// picture with so many things in a row not only some columns are taken. All, if `wanted` is not less.
 [[nodiscard]] std::vector<std::size_t> every_kth(std::size_t count, std::size_t wanted, std::size_t row);
 
-/// Each ray by itself through the spheres in double precision, with all that one ray can skip: what is
-/// behind, beyond its nearest hit or beyond `far`, nearest spheres first, and any-hit rays end.
-class ConventionalRays {
- public:
-  explicit ConventionalRays(const DeviceScene& scene);
-  void trace(const Pencil& pencil);
-  [[nodiscard]] const SkipCounts& counts() const noexcept { return counts_; }
-
- private:
-  struct Waiting {
-    bool leaf;
-    std::uint32_t first;
-    std::uint32_t count;
-    double entry;  ///< where the ray enters the sphere
-  };
-  void trace_ray(const glm::dvec3& origin, const glm::dvec3& direction, double limit, bool any_hit);
-  void push_met(std::uint32_t node, const glm::dvec3& origin, const glm::dvec3& direction, double limit);
-  [[nodiscard]] double intersect(std::uint32_t triangle, const glm::dvec3& origin,
-                                 const glm::dvec3& direction) const;
-
-  const DeviceScene& scene_;
-  std::vector<Waiting> stack_;
-  SkipCounts counts_;
-};
+/// Each ray by itself through the spheres, with all that one ray can skip: the tests of device `reference`.
+[[nodiscard]] SkipCounts run_conventional(const DeviceScene& scene, std::span<const Pencil> pencils,
+                                          const ShowProgress& progress);
 
 /// What the paper's unit does with pencils of 4x4.
 struct PaperRun {
@@ -82,12 +58,12 @@ struct SkipStep {
 
 struct SkipSteps {
   std::vector<SkipStep> steps;
-  std::uint64_t rays_compared = 0;   ///< between two steps, or the last one and `expected`
+  std::uint64_t rays_compared = 0;   ///< of a step, or of `expected`, with the first step
   std::uint64_t rays_different = 0;  ///< in a bit of the result word; of any-hit pencils in the hit bit
 };
 
-/// Walks each pencil with one skip more each time and compares the results; those of the walk with all skips
-/// with `expected` too.
+/// Walks each pencil with one skip more each time, on all of the machine's threads, and compares the results
+/// of each walk, and `expected`, with those of the first walk, which skips nothing.
 [[nodiscard]] SkipSteps run_steps(const DeviceScene& scene, std::span<const Pencil> pencils,
                                   std::span<const std::vector<Hit>> expected, const ShowProgress& progress);
 

@@ -10,6 +10,7 @@
 
 #include "binary_tree.hpp"
 #include "grouping.hpp"
+#include "pieces.hpp"
 #include "raplas/bounding_sphere.hpp"
 #include "triangle_points.hpp"
 
@@ -40,12 +41,15 @@ void check_input(std::size_t triangles, const TreeOptions& options) {
 
 class Builder {
  public:
-  Builder(std::span<const Triangle> triangles, const TreeOptions& options)
-      : triangles_(triangles), options_(options), binary_(build_binary(triangles, options)) {
-    vertices_.reserve(3 * triangles.size());
-    stored_.reserve(3 * triangles.size());
+  /// `pieces` empty: whole triangles.
+  Builder(std::span<const Triangle> triangles, std::vector<Piece> pieces, const TreeOptions& options)
+      : triangles_(triangles), pieces_(std::move(pieces)), options_(options) {
+    binary_ = build_binary(pieces_.empty() ? triangles : shapes_of(triangles, pieces_), options);
+    vertices_.reserve(3 * binary_.order.size());
+    stored_.reserve(3 * binary_.order.size());
     for (const std::uint32_t k : binary_.order) {
-      const TrianglePoints points = points_of(triangles[k]);
+      const Piece piece = pieces_.empty() ? Piece{k} : pieces_[k];
+      const PiecePoints points = points_of(triangles[piece.triangle], piece);
       vertices_.insert(vertices_.end(), points.vertices.begin(), points.vertices.end());
       stored_.insert(stored_.end(), points.stored.begin(), points.stored.end());
     }
@@ -88,20 +92,52 @@ class Builder {
   SphereTree finish(std::size_t root_count) {
     check_ids(nodes_.size(), "spheres");
     SphereTree tree;
-    tree.scene.triangles.reserve(triangles_.size());
-    for (const std::uint32_t k : binary_.order) {
-      tree.scene.triangles.push_back(triangles_[k]);
-    }
     tree.scene.nodes = std::move(nodes_);
     tree.scene.root_first = 0;
     tree.scene.root_count = static_cast<std::uint32_t>(root_count);
-    tree.source = std::move(binary_.order);
+    if (pieces_.empty()) {
+      tree.source = std::move(binary_.order);
+    } else {
+      number_by_first_piece(tree);
+    }
+    tree.scene.triangles.reserve(triangles_.size());
+    for (const std::uint32_t k : tree.source) {
+      tree.scene.triangles.push_back(triangles_[k]);
+    }
     return tree;
   }
 
   [[nodiscard]] std::size_t node_count() const { return nodes_.size(); }
 
  private:
+  /// The pieces as triangles.
+  static std::vector<Triangle> shapes_of(std::span<const Triangle> triangles, std::span<const Piece> pieces) {
+    std::vector<Triangle> shapes;
+    shapes.reserve(pieces.size());
+    for (const Piece& piece : pieces) {
+      const auto& corners = points_of(triangles[piece.triangle], piece).vertices;
+      shapes.push_back({corners[0], corners[1] - corners[0], corners[2] - corners[0]});
+    }
+    return shapes;
+  }
+
+  /// Triangle IDs in the order in which the tree comes to the triangles.
+  void number_by_first_piece(SphereTree& tree) const {
+    constexpr std::uint32_t kNone = ~0U;
+    std::vector<std::uint32_t> ids(triangles_.size(), kNone);
+    tree.scene.pieces.reserve(pieces_.size());
+    for (const std::uint32_t k : binary_.order) {
+      Piece piece = pieces_[k];
+      std::uint32_t& id = ids[piece.triangle];
+      if (id == kNone) {
+        id = static_cast<std::uint32_t>(tree.source.size());
+        tree.source.push_back(piece.triangle);
+      }
+      piece.triangle = id;
+      tree.scene.pieces.push_back(piece);
+    }
+  }
+
   [[nodiscard]] bool fits_leaf(std::uint32_t node) const {
     return binary_.nodes[node].size() <= static_cast<std::uint32_t>(options_.leaf_size);
   }
@@ -113,11 +149,33 @@ class Builder {
   /// The parts that become the children's spheres: what the builder wants, or the two halves where wider
   /// ranges would not leave the ranges below enough room.
   [[nodiscard]] std::vector<std::uint32_t> children(std::uint32_t node, int room) const {
-    std::vector<std::uint32_t> parts = grouping_ ? grouping_->children(node) : largest_halved(node);
+    std::vector<std::uint32_t> parts = node == 0 ? root_children() : wanted_children(node);
     const int left = room - static_cast<int>(parts.size() - 1);
     if (binary_.nodes[node].divided() &&
         std::any_of(parts.begin(), parts.end(), [&](std::uint32_t part) { return levels_[part] > left; })) {
       parts = {node + 1, binary_.nodes[node].right};
+    }
+    return parts;
+  }
+
+  [[nodiscard]] std::vector<std::uint32_t> wanted_children(std::uint32_t node) const {
+    return grouping_ ? grouping_->children(node) : largest_halved(node);
+  }
+
+  /// The largest child's children in its place until there are `root_width`: nothing else is under test when
+  /// a walk begins, and a level less to go down saves more clocks than the tests of a few spheres take.
+  [[nodiscard]] std::vector<std::uint32_t> root_children() const {
+    std::vector<std::uint32_t> parts = wanted_children(0);
+    while (parts.size() < static_cast<std::size_t>(options_.root_width)) {
+      const auto largest =
+          std::max_element(parts.begin(), parts.end(), [this](std::uint32_t a, std::uint32_t b) {
+            return binary_.nodes[a].size() < binary_.nodes[b].size();
+          });
+      if (is_leaf(*largest, kMaxStacked)) {
+        break;
+      }
+      const std::vector<std::uint32_t> below = wanted_children(*largest);
+      parts.insert(parts.erase(largest), below.begin(), below.end());
     }
     return parts;
   }
@@ -200,6 +258,7 @@ class Builder {
   }
 
   std::span<const Triangle> triangles_;
+  std::vector<Piece> pieces_;  ///< empty: whole triangles
   TreeOptions options_;
   BinaryTree binary_;
   std::vector<glm::dvec3> vertices_;  ///< in the tree's order, as stored_
@@ -215,14 +274,14 @@ SphereTree build_flat(std::span<const Triangle> triangles, const TreeOptions& op
   check_input(triangles.size(), options);
   TreeOptions median = options;
   median.builder = TreeBuilder::median;
-  Builder builder(triangles, median);
+  Builder builder(triangles, {}, median);
   builder.add_leaves();
   return builder.finish(builder.node_count());
 }
 
 SphereTree build_tree(std::span<const Triangle> triangles, const TreeOptions& options) {
   check_input(triangles.size(), options);
-  Builder builder(triangles, options);
+  Builder builder(triangles, cut_large(triangles, options), options);
   return builder.finish(builder.add_children(0, kMaxStacked));
 }
 

@@ -196,9 +196,13 @@ TEST_F(Cli, MeasuresWhatIsSkipped) {
   };
   EXPECT_EQ(value("skip.box.triangles"), 1008);
   EXPECT_EQ(value("skip_step.box.camera.brute.pairs_per_ray"), 1008);
+  // the whole picture: the clocked unit and all steps but the first, each with the first
+  EXPECT_EQ(value("skip.box.camera.pencils"), 6);
+  EXPECT_EQ(value("skip.box.camera.compared"), 8 * 40 * 24);
   for (const std::string kind : {"camera", "shadow"}) {
     const std::string clocked = "skip.box." + kind;
     EXPECT_GT(value(clocked + ".compared"), 0);
+    EXPECT_EQ(value(clocked + ".walked"), value(clocked + ".pencils"));
     EXPECT_EQ(value(clocked + ".different"), 0);
     const double either = value(clocked + ".busy_percent");
     const double objects = value(clocked + ".testers_busy_percent");
@@ -219,10 +223,13 @@ TEST_F(Cli, MeasuresWhatIsSkipped) {
     EXPECT_LE(value(step + "behind.pairs_per_ray"), value(step + "inherited.pairs_per_ray"));
     EXPECT_LT(value(step + "hidden.pairs_per_ray"), value(step + "nearest.pairs_per_ray"));
     EXPECT_LT(value(step + "rectangles.pairs_per_ray"), value(step + "hidden.pairs_per_ray"));
+    EXPECT_LE(value(step + "scan_lines.pairs_per_ray"), value(step + "rectangles.pairs_per_ray"));
     EXPECT_EQ(value(step + "hidden.vertex_tests_per_ray"), 0);
   }
+  EXPECT_LT(value("skip_step.box.camera.scan_lines.pairs_per_ray"),
+            value("skip_step.box.camera.rectangles.pairs_per_ray"));
   EXPECT_LE(value("skip_step.box.shadow.ended.pairs_per_ray"),
-            value("skip_step.box.shadow.rectangles.pairs_per_ray"));
+            value("skip_step.box.shadow.scan_lines.pairs_per_ray"));
   EXPECT_FALSE(figures.contains("skip_step.box.camera.ended.pairs_per_ray"));
   EXPECT_NE(folder_.read("stdout").find("different: 0"), std::string::npos);
 }
@@ -234,6 +241,8 @@ TEST_F(Cli, MeasuresTheSameTwice) {
   EXPECT_EQ(folder_.read("a/cycles.png"), folder_.read("b/cycles.png"));
   const auto a = json("a.json");
   const auto b = json("b.json");
+  EXPECT_LT(a["skip.cornell_teapot.camera.walked"]["value"],
+            a["skip.cornell_teapot.camera.pencils"]["value"]);
   ASSERT_EQ(a.size(), b.size());
   for (const auto& [name, figure] : a.items()) {
     EXPECT_EQ(figure["value"], b[name]["value"]) << name;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <random>
@@ -45,29 +46,52 @@ TEST(ReferenceDevice, LowerIdWinsATie) {
   EXPECT_EQ(device->trace(one_ray({0.2, 0.2, 0}, {0.2, 0.2, 1})).at(0).triangle, 0U);
 }
 
+glm::dvec3 random_vector(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const double x = uniform(random);
+  const double y = uniform(random);
+  return {x, y, uniform(random)};
+}
+
+std::vector<Triangle> random_triangles(std::mt19937_64& random, int count) {
+  std::vector<Triangle> triangles;
+  triangles.reserve(static_cast<std::size_t>(count));
+  for (int k = 0; k < count; ++k) {
+    const glm::dvec3 v0 = random_vector(random) * 0.5;
+    const glm::dvec3 e1 = random_vector(random) * 0.1;
+    triangles.push_back({v0, e1, random_vector(random) * 0.1});
+  }
+  return triangles;
+}
+
+/// A list of spheres of which each ray meets all, 100 triangles in each: every triangle is tested.
+DeviceScene brute_force(const std::vector<Triangle>& triangles) {
+  DeviceScene scene{triangles, {}, 0, 0, 0};
+  const auto count = static_cast<std::uint32_t>(triangles.size());
+  for (std::uint32_t first = 0; first < count; first += 100) {
+    scene.nodes.push_back({{0, 0, 0}, 4, true, first, std::min(100U, count - first)});
+  }
+  scene.root_count = static_cast<std::uint32_t>(scene.nodes.size());
+  return scene;
+}
+
+Pencil random_pencil(std::mt19937_64& random) {
+  const glm::dvec3 origin = random_vector(random) * 0.9;
+  const glm::dvec3 first = random_vector(random);
+  const glm::dvec3 row_step = random_vector(random) * 0.1;
+  return make_pencil(origin, {first, row_step, random_vector(random) * 0.1, 8, 8});
+}
+
 TEST(ReferenceDevice, TreeFindsWhatTestingEveryTriangleFinds) {
   std::mt19937_64 random(11);
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  const auto vector = [&] { return glm::dvec3(uniform(random), uniform(random), uniform(random)); };
-  std::vector<Triangle> triangles;
-  triangles.reserve(1500);
-  for (int k = 0; k < 1500; ++k) {
-    triangles.push_back({vector() * 0.5, vector() * 0.1, vector() * 0.1});
-  }
-  const SphereTree tree = build_tree(triangles);
-  // One sphere around everything, nothing rejected. (127 triangles a leaf: one leaf for each.)
-  DeviceScene brute{tree.scene.triangles, {}, 0, 0, 0};
-  for (std::uint32_t first = 0; first < 1500; first += 100) {
-    brute.nodes.push_back({{0, 0, 0}, 4, true, first, 100});
-  }
-  brute.root_count = static_cast<std::uint32_t>(brute.nodes.size());
+  const SphereTree tree = build_tree(random_triangles(random, 1500));
   const auto with_tree = make_device("reference", {});
   const auto without = make_device("reference", {});
   with_tree->load(tree.scene);
-  without->load(brute);
+  without->load(brute_force(tree.scene.triangles));
   std::size_t rays = 0;
   for (int k = 0; k < 100; ++k) {
-    const Pencil pencil = make_pencil(vector() * 0.9, {vector(), vector() * 0.1, vector() * 0.1, 8, 8});
+    const Pencil pencil = random_pencil(random);
     EXPECT_EQ(with_tree->trace(pencil), without->trace(pencil));
     rays += pencil.directions.size();
   }
@@ -75,6 +99,40 @@ TEST(ReferenceDevice, TreeFindsWhatTestingEveryTriangleFinds) {
   EXPECT_GT(count(*with_tree, Counter::hits), 100U);
   EXPECT_EQ(count(*without, Counter::pairs_tested), rays * 1500);
   EXPECT_LT(count(*with_tree, Counter::pairs_tested), rays * 300);
+}
+
+TEST(ReferenceDevice, FarAndAnyHitLeaveOutWhatDoesNotMatter) {
+  std::mt19937_64 random(12);
+  const SphereTree tree = build_tree(random_triangles(random, 1500));
+  const auto every = make_device("reference", {});
+  const auto before_far = make_device("reference", {});
+  const auto any = make_device("reference", {});
+  every->load(brute_force(tree.scene.triangles));
+  before_far->load(tree.scene);
+  any->load(tree.scene);
+  std::size_t far_hits = 0;
+  for (int k = 0; k < 100; ++k) {
+    Pencil pencil = random_pencil(random);
+    const std::vector<Hit> nearest = every->trace(pencil);
+    pencil.far = std::uniform_real_distribution<double>(0, 1)(random);
+    const std::vector<Hit> before = before_far->trace(pencil);
+    pencil.any_hit = true;
+    const std::vector<Hit> some = any->trace(pencil);
+    for (std::size_t ray = 0; ray < nearest.size(); ++ray) {
+      const auto depth = [&](const Hit& hit) {
+        return hit.t() * glm::dot(pencil.axis, pencil.directions[ray]);
+      };
+      const bool is_far = nearest[ray].hit && depth(nearest[ray]) >= pencil.far;
+      far_hits += is_far ? 1U : 0U;
+      EXPECT_EQ(before[ray], is_far ? Hit() : nearest[ray]);
+      EXPECT_EQ(some[ray].hit, before[ray].hit);
+      EXPECT_TRUE(!some[ray].hit || depth(some[ray]) < pencil.far);
+    }
+  }
+  EXPECT_GT(far_hits, 100U);
+  EXPECT_GT(count(*any, Counter::hits), 100U);
+  EXPECT_EQ(count(*any, Counter::hits), count(*before_far, Counter::hits));
+  EXPECT_LT(count(*any, Counter::pairs_tested), count(*before_far, Counter::pairs_tested));
 }
 
 TEST(Devices, UnknownNameListsTheKnownOnes) {

@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <stdexcept>
 
 #include "encode_fixed_source.hpp"
@@ -16,6 +18,7 @@
 #include "raplas/encode.hpp"
 #include "raplas/pencil.hpp"
 #include "raplas/renderer.hpp"
+#include "raplas/scan_lines.hpp"
 #include "raplas/scene.hpp"
 #include "raplas/sphere_tree.hpp"
 
@@ -53,6 +56,15 @@ Pencil random_pencil(Source& random) {
     pencil.far = random.uniform(0, 1);
   }
   pencil.any_hit = random.below(2) == 0;
+  const std::uint32_t surface = random.below(4);  // some rays go behind it now and then, or nearly so
+  if (surface > 0) {
+    pencil.front = random.on_sphere();
+    if (surface > 1) {
+      const glm::dvec3& ray = pencil.directions[random.below(static_cast<std::uint32_t>(rows * columns))];
+      pencil.front -= ray * (glm::dot(ray, pencil.front) - std::exp2(random.uniform(-20, 0)));
+      pencil.front = glm::normalize(pencil.front);
+    }
+  }
   return pencil;
 }
 
@@ -128,6 +140,33 @@ TriangleTest test_triangle(const FixedPencil& pencil, const std::array<FixedVec3
   return result;
 }
 
+/// How the scan lines of a triangle treat the rays of a row.
+struct ScanLine {
+  LineMask reached = 0;
+  LineMask reached_without_margin = 0;
+  bool on_grid = false;
+};
+
+ScanLine scan_line(const FixedPencil& pencil, const std::array<FixedVec3, 3>& corners, int row) {
+  const LimitsWord& limits = pencil.memory.limits;
+  std::array<GridPoint, 3> points;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const FixedTest t = test_object(pencil.memory.planes, corners[k], 0, limits.slack);
+    points[k] = project(t.across, t.down, t.depth, limits);
+    if (!points[k].known) {
+      return {first_lines(kMaxColumns), first_lines(kMaxColumns), false};
+    }
+  }
+  EdgeCuts cuts = edge_cuts(points, limits.error);
+  const auto line = static_cast<std::uint32_t>(row);
+  ScanLine result{row_columns(cuts, line), 0, true};
+  for (EdgeCut& cut : cuts) {
+    cut.margin = 0;
+  }
+  result.reached_without_margin = row_columns(cuts, line);
+  return result;
+}
+
 /// What the planes say of points on rays as stored, within the unit ball and before far.
 struct Deviation {
   long double aside = 0;   ///< most distance from a ray's row or column plane
@@ -171,6 +210,24 @@ Deviation deviation(const FixedPencil& words, double far) {
   return most;
 }
 
+// The claim of docs/fixed_encoding.md on how large slack and vertex_error are, in units.
+const double kHalfDiagonal = std::sqrt(3.0) / 2;  // a vector's rounding to the lattice
+constexpr double kSpare = 0x1p-10;
+
+double most_slack(const Pencil& pencil, double vertex_error) {
+  return std::ceil((kHalfDiagonal + 1) * (1 + glm::length(pencil.origin)) + vertex_error / kUnit + kSpare);
+}
+
+double most_vertex_error(const std::vector<Triangle>& triangles) {
+  double corner = 0;
+  double edge = 0;
+  for (const Triangle& t : triangles) {
+    corner = std::max(corner, glm::length(t.v0));
+    edge = std::max({edge, glm::length(t.e1), glm::length(t.e2)});
+  }
+  return kHalfDiagonal + corner + edge + kSpare;
+}
+
 void expect_ranges(const FixedPlane& plane) {
   std::int64_t square = 0;
   for (const std::int64_t component : plane.normal) {
@@ -189,6 +246,10 @@ TEST(EncodeFixed, EveryHitOfARayAsStoredIsFoundByItsLines) {
   std::uint64_t lost_without_slack = 0;
   std::uint64_t lost_with_half = 0;
   std::uint64_t depths = 0;
+  std::uint64_t on_grid = 0;
+  std::uint64_t lost_without_margin = 0;
+  std::uint64_t in_pieces = 0;
+  std::uint32_t largest_slack = 0;
   for (std::uint64_t done = 0; done < cases;) {
     const Pencil pencil = random_pencil(random);
     std::vector<Triangle> triangles;
@@ -201,11 +262,24 @@ TEST(EncodeFixed, EveryHitOfARayAsStoredIsFoundByItsLines) {
                                                 : pencil.column_planes[static_cast<std::size_t>(c)];
       const double side = random.below(2) == 0 ? 1 : -1;
       const glm::dvec3 end = pencil.origin + unit * way_out(pencil.origin, unit);
-      triangles.push_back(aimed(random, pencil.origin, end, side * plane.normal, pencil.axis));
+      const bool across_front = pencil.front != glm::dvec3(0) && random.below(2) == 0;
+      triangles.push_back(
+          aimed(random, pencil.origin, end, side * plane.normal, across_front ? pencil.front : pencil.axis));
       rays.emplace_back(r, c);
     }
-    const FixedScene scene = encode_fixed(one_leaf(triangles));
+    // every second time in pieces, perhaps tiny ones
+    SphereTree tree{one_leaf(triangles), std::vector<std::uint32_t>(triangles.size())};
+    std::iota(tree.source.begin(), tree.source.end(), 0U);
+    if (random.below(2) == 0) {
+      TreeOptions options;
+      options.longest_edge = std::exp2(random.uniform(-8, 0));
+      tree = build_tree(triangles, options);
+    }
+    const FixedScene scene = encode_fixed(tree.scene);
     const FixedPencil words = encode_fixed(pencil, scene.vertex_error);
+    ASSERT_LE(scene.vertex_error / kUnit, most_vertex_error(triangles));
+    ASSERT_LE(words.memory.limits.slack, most_slack(pencil, scene.vertex_error));
+    largest_slack = std::max(largest_slack, words.memory.limits.slack);
     const Deviation most = deviation(words, pencil.far);
     const double spare = words.memory.limits.slack * kUnit - scene.vertex_error;
     ASSERT_LE(most.aside, spare);
@@ -217,7 +291,7 @@ TEST(EncodeFixed, EveryHitOfARayAsStoredIsFoundByItsLines) {
     expect_ranges(words.memory.planes.depth);
     const auto slots = slots_of(scene, triangles.size());
     for (std::size_t k = 0; k < triangles.size(); ++k) {
-      const auto [r, c] = rays[k];
+      const auto [r, c] = rays[tree.source[k]];
       const auto ray = static_cast<std::size_t>(r) * kMaxColumns + static_cast<std::size_t>(c);
       const TriangleWord<Fp24>& stored = scene.memory.triangles[k];
       const auto t = exact_hit(decode(words.memory.pencil.origin), decode(words.memory.rays[ray]),
@@ -225,25 +299,55 @@ TEST(EncodeFixed, EveryHitOfARayAsStoredIsFoundByItsLines) {
       if (!t || depth_code(*t) >= words.memory.limits.far) {
         continue;
       }
-      const TriangleTest test = test_triangle(words, slots[k], words.memory.limits.slack);
-      const auto finds = [r = r, c = c](const TriangleTest& of) {
+      const auto crossed = [r = r, c = c](const TriangleTest& of) {
         return (of.rows >> r & of.columns >> c & 1U) != 0;
       };
-      ASSERT_TRUE(finds(test)) << "pencil of case " << done << ", triangle " << k;
-      ASSERT_TRUE(test.near);
-      ASSERT_LE(test.depth, *t);
+      const auto some_piece = [&](std::uint32_t slack, const auto& holds) {
+        return std::any_of(slots[k].begin(), slots[k].end(),
+                           [&](const auto& piece) { return holds(test_triangle(words, piece, slack)); });
+      };
+      const auto finds = [&](const auto& piece) {
+        const TriangleTest test = test_triangle(words, piece, words.memory.limits.slack);
+        return crossed(test) && test.near && test.depth <= *t;
+      };
+      ASSERT_TRUE(std::any_of(slots[k].begin(), slots[k].end(),
+                              [&](const auto& piece) {
+                                return finds(piece) && (scan_line(words, piece, r).reached >> c & 1U) != 0;
+                              }))
+          << "pencil of case " << done << ", triangle " << k;
       ++hits;
-      depths += depth_code(test.depth) > 0 ? 1U : 0U;
-      lost_without_slack += finds(test_triangle(words, slots[k], 0)) ? 0U : 1U;
-      lost_with_half += finds(test_triangle(words, slots[k], words.memory.limits.slack / 2)) ? 0U : 1U;
+      bool reached_without_margin = false;
+      for (const auto& piece : slots[k]) {
+        const ScanLine line = scan_line(words, piece, r);
+        if (finds(piece) && (line.reached >> c & 1U) != 0 && line.on_grid) {
+          ++on_grid;
+        }
+        reached_without_margin =
+            reached_without_margin || (finds(piece) && (line.reached_without_margin >> c & 1U) != 0);
+      }
+      lost_without_margin += reached_without_margin ? 0U : 1U;
+      in_pieces += slots[k].size() > 1 ? 1U : 0U;
+      depths += some_piece(words.memory.limits.slack,
+                           [&](const TriangleTest& of) { return crossed(of) && depth_code(of.depth) > 0; })
+                    ? 1U
+                    : 0U;
+      lost_without_slack += some_piece(0, crossed) ? 0U : 1U;
+      lost_with_half += some_piece(words.memory.limits.slack / 2, crossed) ? 0U : 1U;
     }
     done += triangles.size();
   }
   fmt::print("encode_fixed.hits_checked {}\n", hits);
+  fmt::print("encode_fixed.largest_slack {} units\n", largest_slack);
+  fmt::print("encode_fixed.hits_in_pieces {}\n", in_pieces);
   fmt::print("encode_fixed.lost_without_slack {}\n", lost_without_slack);
   fmt::print("encode_fixed.lost_with_half_the_slack {}\n", lost_with_half);
+  fmt::print("encode_fixed.hits_on_grid {}\n", on_grid);
+  fmt::print("encode_fixed.lost_without_margin {}\n", lost_without_margin);
   EXPECT_GT(hits, cases / 4);
+  EXPECT_GT(on_grid, hits / 4);
+  EXPECT_GT(lost_without_margin, 0U);
   EXPECT_GT(depths, hits / 2);
+  EXPECT_GT(in_pieces, hits / 8);
   EXPECT_GT(lost_without_slack, 0U);
 }
 
@@ -298,6 +402,29 @@ TEST(EncodeFixed, RefusesPencilsThatDoNotFit) {
   EXPECT_THROW((void)encode_fixed(pencil), std::invalid_argument);
 }
 
+TEST(EncodeFixed, TheSurfaceThatRaysLeaveIsBehind) {
+  const auto is_near = [](const Pencil& pencil, const glm::dvec3& point) {
+    const FixedPencil words = encode_fixed(pencil);
+    FixedVec3 vertex{};
+    for (int k = 0; k < 3; ++k) {
+      vertex[static_cast<std::size_t>(k)] = static_cast<std::int32_t>(std::lrint(point[k] / kUnit));
+    }
+    return test_object(words.memory.planes, vertex, 0, words.memory.limits.slack).near;
+  };
+  Pencil pencil = plain_pencil({0.1, -0.2, -0.7});
+  // a wall of normal -x, past which the pencil's last column goes
+  const glm::dvec3 wall = pencil.origin + glm::dvec3(0x1p-10, 0, 0.3);
+  EXPECT_TRUE(is_near(pencil, wall));
+  pencil.front = {-1, 0, 0};
+  EXPECT_TRUE(is_near(pencil, wall));
+  const glm::dvec3 aside = pencil.origin - glm::dvec3(0.5, 0.1, -0.5);
+  pencil = make_pencil(pencil.origin, {aside, {0, 0.1, 0}, {0.1, 0, 0}, 2, 3});
+  EXPECT_TRUE(is_near(pencil, wall));
+  pencil.front = {-1, 0, 0};
+  EXPECT_FALSE(is_near(pencil, wall));
+  EXPECT_TRUE(is_near(pencil, wall - glm::dvec3(0x1p-9, 0, 0)));
+}
+
 TEST(EncodeFixed, RaysAlongTheGridLeaveDepthsOut) {
   const glm::dvec3 axis = glm::normalize(glm::dvec3(1, 2, 3));
   const glm::dvec3 u = any_across(axis);
@@ -346,6 +473,7 @@ class Observer final : public IntersectionDevice {
     ++pencils.at(kind);
     total.at(kind) += words.memory.limits.slack;
     most.at(kind) = std::max(most.at(kind), words.memory.limits.slack);
+    EXPECT_LE(words.memory.limits.slack, most_slack(pencil, vertex_error_));
   }
   [[nodiscard]] Counters counters() const override { return {}; }
 
@@ -374,6 +502,7 @@ TEST(EncodeFixed, SlackAndWordsOfAScene) {
   fmt::print("encode_fixed.words_per_triangle {:.3f}\n",
              double(words.memory.vertices.size()) / double(words.memory.triangles.size()));
   fmt::print("encode_fixed.vertex_error {:.3f} units\n", words.vertex_error / kUnit);
+  EXPECT_LE(words.vertex_error / kUnit, most_vertex_error(tree.scene.triangles));
   Observer observer;
   observer.load(tree.scene);
   RenderOptions options;
@@ -383,7 +512,6 @@ TEST(EncodeFixed, SlackAndWordsOfAScene) {
     fmt::print("encode_fixed.slack_{} mean {:.2f}, most {} units, {} pencils\n",
                kind == 0 ? "camera" : "shadow", double(observer.total[kind]) / double(observer.pencils[kind]),
                observer.most[kind], observer.pencils[kind]);
-    EXPECT_LE(observer.most[kind], 12U);
   }
   fmt::print("encode_fixed.microseconds_per_pencil {:.1f}\n",
              1e6 * observer.seconds / double(observer.pencils[0] + observer.pencils[1]));

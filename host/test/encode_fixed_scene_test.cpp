@@ -76,7 +76,8 @@ TEST(EncodeFixed, NodesHoldEveryVertexBelow) {
   for (std::size_t k = 0; k < slots.size(); ++k) {
     const Triangle& t = tree.scene.triangles[k];
     std::array<glm::dvec3, 3> corners{t.v0, t.v0 + t.e1, t.v0 + t.e2};
-    for (const FixedVec3& word : slots[k]) {
+    ASSERT_EQ(slots[k].size(), 1U);
+    for (const FixedVec3& word : slots[k][0]) {
       const glm::dvec3 v = glm::dvec3(word[0], word[1], word[2]) * kUnit;
       EXPECT_TRUE(std::any_of(corners.begin(), corners.end(),
                               [&v](const glm::dvec3& p) { return glm::distance(p, v) < kUnit; }));
@@ -86,6 +87,40 @@ TEST(EncodeFixed, NodesHoldEveryVertexBelow) {
   }
   EXPECT_LE(words.vertex_error, kMaxVertexError);
   EXPECT_LT(double(words.memory.vertices.size()), 1.8 * double(slots.size()));
+}
+
+TEST(EncodeFixed, PiecesHaveTheirCornersAndOneTriangleWord) {
+  TreeOptions options;
+  options.longest_edge = 0.1;
+  const SphereTree tree = build_tree(globe(4, 6), options);
+  check_tree(tree.scene);
+  const FixedScene words = encode_fixed(tree.scene);
+  EXPECT_EQ(words.memory.triangles.size(), tree.scene.triangles.size());
+  EXPECT_LE(words.vertex_error, kMaxVertexError);
+  std::uint64_t checked = 0;
+  check_below(words, words.memory.scene.first, words.memory.scene.count, {}, checked);
+  const auto slots = slots_of(words, tree.scene.triangles.size());
+  std::size_t pieces = 0;
+  for (const auto& of_triangle : slots) {
+    pieces += of_triangle.size();
+  }
+  EXPECT_EQ(pieces, tree.scene.pieces.size());
+  EXPECT_GT(pieces, 4 * tree.scene.triangles.size());
+  for (const Piece& piece : tree.scene.pieces) {
+    const TriangleWord<Fp24>& t = words.memory.triangles[piece.triangle];
+    const auto holds = [&](const std::array<FixedVec3, 3>& of) {
+      return std::all_of(piece.corners.begin(), piece.corners.end(), [&](const Piece::Corner& corner) {
+        const glm::dvec3 p =
+            decode(t.v0) +
+            (double(corner.a) * decode(t.e1) + double(corner.b) * decode(t.e2)) / double(kPieceUnit);
+        return std::any_of(of.begin(), of.end(), [&](const FixedVec3& word) {
+          return glm::distance(p, glm::dvec3(word[0], word[1], word[2]) * kUnit) <= words.vertex_error;
+        });
+      });
+    };
+    const auto& candidates = slots[piece.triangle];
+    EXPECT_TRUE(std::any_of(candidates.begin(), candidates.end(), holds));
+  }
 }
 
 TEST(EncodeFixed, RefusesScenesThatDoNotFit) {

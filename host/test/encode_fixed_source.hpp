@@ -41,14 +41,15 @@ class Source {
   Xoshiro random_;
 };
 
-/// The triangles' vertex words, as the slots hold them.
-inline std::vector<std::array<FixedVec3, 3>> slots_of(const FixedScene& scene, std::size_t triangles) {
-  std::vector<std::array<FixedVec3, 3>> result(triangles);
+/// The vertex words of each triangle's pieces, as the slots hold them.
+inline std::vector<std::vector<std::array<FixedVec3, 3>>> slots_of(const FixedScene& scene,
+                                                                   std::size_t triangles) {
+  std::vector<std::vector<std::array<FixedVec3, 3>>> result(triangles);
   std::array<FixedVec3, 3> slots{};
   for (const VertexWord& word : scene.memory.vertices) {
     slots.at(word.slot) = word.point;
     if (word.emit) {
-      result.at(word.triangle) = slots;
+      result.at(word.triangle).push_back(slots);
     }
   }
   return result;

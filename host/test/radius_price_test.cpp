@@ -147,14 +147,16 @@ class Accountant final : public IntersectionDevice {
 template <typename F>
 Price price_of(const std::filesystem::path& file, int size) {
   const Scene scene = load_scene(file);
-  SphereTree tree = build_tree(scene.triangles);
+  TreeOptions options;
+  options.longest_edge = kWholeTriangles;
+  SphereTree tree = build_tree(scene.triangles, options);
   tree.scene.max_origin = scene.max_origin;
   Accountant<F> device;
   device.load(tree.scene);
-  RenderOptions options;
-  options.width = size;
-  options.height = size;
-  (void)render(scene, tree.source, device, options);
+  RenderOptions picture;
+  picture.width = size;
+  picture.height = size;
+  (void)render(scene, tree.source, device, picture);
   return device.price();
 }
 

@@ -78,14 +78,79 @@ TEST(SphereTree, FlatListIsOneLevelOfFullLeaves) {
                           [](const SphereNode& n) { return n.leaf; }));
 }
 
-TEST(SphereTree, InnerNodesHaveAtMostWidthChildren) {
+TEST(SphereTree, InnerNodesHaveAtMostWidthChildrenAndTheRootItsOwnWidth) {
   const auto triangles = random_triangles(5000, 2);
   for (const TreeBuilder builder : kBuilders) {
     const SphereTree tree = build_tree(triangles, {4, 4, builder});
-    EXPECT_LE(tree.scene.root_count, 4U);
+    EXPECT_GE(tree.scene.root_count, 8U);  // root_width
+    EXPECT_LE(tree.scene.root_count, 8U + 3U);
     for (const SphereNode& node : tree.scene.nodes) {
       EXPECT_LE(node.count, 4U);
     }
+  }
+}
+
+/// A wall of two large triangles behind small ones.
+std::vector<Triangle> wall_and_crumbs(std::size_t crumbs) {
+  std::vector<Triangle> triangles = random_triangles(crumbs, 12);
+  for (Triangle& t : triangles) {
+    t.e1 *= 0.02 / glm::length(t.e1);
+    t.e2 *= 0.02 / glm::length(t.e2);
+  }
+  triangles.push_back({{-0.5, -0.5, -0.3}, {1, 0, 0}, {1, 1, 0}});
+  triangles.push_back({{-0.5, -0.5, -0.3}, {1, 1, 0}, {0, 1, 0}});
+  return triangles;
+}
+
+glm::dvec3 corner_of(const DeviceScene& scene, const Piece& piece, std::size_t k) {
+  const Triangle& t = scene.triangles[piece.triangle];
+  const Piece::Corner& corner = piece.corners.at(k);
+  return t.v0 + (double(corner.a) * t.e1 + double(corner.b) * t.e2) / double(kPieceUnit);
+}
+
+TEST(SphereTree, LargeTrianglesAreCutSmallOnesAreNot) {
+  const auto triangles = wall_and_crumbs(300);
+  for (const TreeBuilder builder : kBuilders) {
+    for (const double longest : {1.0, 0.7, 0.3, 0.13}) {
+      TreeOptions options;
+      options.builder = builder;
+      options.longest_edge = longest;
+      const SphereTree tree = build_tree(triangles, options);
+      EXPECT_NO_THROW(check_tree(tree.scene));
+      check_source(tree, triangles);
+      std::vector<int> pieces(triangles.size());
+      for (const Piece& piece : tree.scene.pieces) {
+        ++pieces.at(tree.source[piece.triangle]);
+        for (std::size_t k = 0; k < 3; ++k) {
+          EXPECT_LE(glm::distance(corner_of(tree.scene, piece, k), corner_of(tree.scene, piece, (k + 1) % 3)),
+                    longest * (1 + 1e-12));
+        }
+      }
+      // each cut of a right-angled one with equal sides halves it into two of these
+      const int expected = 1 << static_cast<int>(std::ceil(2 * std::log2(std::sqrt(2.0) / longest) - 1e-9));
+      EXPECT_EQ(pieces[300], expected);
+      EXPECT_EQ(pieces[301], expected);
+      EXPECT_TRUE(std::all_of(pieces.begin(), pieces.begin() + 300, [](int count) { return count == 1; }));
+      const SphereTree again = build_tree(triangles, options);
+      EXPECT_EQ(again.source, tree.source);
+      EXPECT_EQ(again.scene.nodes.size(), tree.scene.nodes.size());
+    }
+  }
+  TreeOptions whole;
+  whole.longest_edge = kWholeTriangles;
+  EXPECT_TRUE(build_tree(triangles, whole).scene.pieces.empty());
+  EXPECT_TRUE(build_tree(wall_and_crumbs(9), whole).scene.pieces.empty());
+  EXPECT_TRUE(build_flat(triangles).scene.pieces.empty());
+}
+
+TEST(SphereTree, PiecesAreFew) {
+  for (const std::size_t crumbs : {0U, 300U, 8000U}) {
+    const auto triangles = wall_and_crumbs(crumbs);
+    TreeOptions options;
+    options.longest_edge = 1e-5;  // shorter than pieces can get
+    const SphereTree tree = build_tree(triangles, options);
+    EXPECT_NO_THROW(check_tree(tree.scene));
+    EXPECT_EQ(tree.scene.pieces.size(), triangles.size() + std::max<std::size_t>(256, triangles.size() / 16));
   }
 }
 
@@ -186,6 +251,50 @@ TEST(CheckTree, FindsEachKindOfDamageAndNamesTheNode) {
   EXPECT_NE(damaged([&](DeviceScene& s) { s.nodes[0].first = s.nodes[1].first; }), "");
   EXPECT_NE(damaged([](DeviceScene& s) { s.root_count = 1; }), "");
   EXPECT_NE(damaged([](DeviceScene& s) { s.root_count = 0; }), "");
+}
+
+TEST(CheckTree, FindsPiecesThatAreNotTheTriangle) {
+  const DeviceScene good = build_tree(wall_and_crumbs(20)).scene;
+  ASSERT_EQ(complaint(good), "");
+  const auto cut = static_cast<std::size_t>(
+      std::find_if(good.pieces.begin(), good.pieces.end(),
+                   [](const Piece& piece) { return piece.corners != Piece{}.corners; }) -
+      good.pieces.begin());
+  ASSERT_LT(cut, good.pieces.size());
+  const auto damaged = [&](auto&& damage) {
+    DeviceScene scene = good;
+    for (SphereNode& node : scene.nodes) {
+      node.radius = 4;  // so that only the pieces are wrong
+    }
+    EXPECT_EQ(complaint(scene), "");
+    damage(scene.pieces);
+    return complaint(scene);
+  };
+  const std::string text = fmt::format("the pieces of triangle {}", good.pieces[cut].triangle);
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (const int step : {-1, 1}) {
+      const auto moved = [step](std::uint16_t x) { return static_cast<std::uint16_t>(x + step); };
+      EXPECT_NE(damaged([&](auto& pieces) {
+                  pieces[cut].corners[k].a = moved(pieces[cut].corners[k].a);
+                }).find(text),
+                std::string::npos);
+      EXPECT_NE(damaged([&](auto& pieces) {
+                  pieces[cut].corners[k].b = moved(pieces[cut].corners[k].b);
+                }).find(text),
+                std::string::npos);
+    }
+  }
+  const auto other = static_cast<std::size_t>(
+      std::find_if(good.pieces.begin() + static_cast<std::ptrdiff_t>(cut) + 1, good.pieces.end(),
+                   [&](const Piece& piece) { return piece.triangle == good.pieces[cut].triangle; }) -
+      good.pieces.begin());
+  // twice the same half: as large as the whole
+  EXPECT_NE(damaged([&](auto& pieces) { pieces[cut].corners = pieces[other].corners; }).find(text),
+            std::string::npos);
+  EXPECT_NE(damaged([&](auto& pieces) { pieces[cut].triangle = 22; }), "");
+  EXPECT_NE(damaged([&](auto& pieces) { pieces[cut].triangle = (pieces[cut].triangle + 1) % 22; }), "");
+  EXPECT_NE(damaged([&](auto& pieces) { pieces.pop_back(); }), "");
+  EXPECT_NE(damaged([&](auto& pieces) { pieces.push_back(pieces[cut]); }), "");
 }
 
 TEST(CheckTree, FindsATreeTooDeepForTheStack) {

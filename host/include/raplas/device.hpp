@@ -23,11 +23,26 @@ struct Triangle {
   glm::dvec3 e2;
 };
 
+/// Barycentric coordinates of pieces are multiples of 1 / kPieceUnit.
+inline constexpr std::uint16_t kPieceUnit = 1U << 15;
+
+/// A part of a triangle, with corners V0 + (a E1 + b E2) / kPieceUnit. Tests see its corners for the
+/// triangle's; rays hit the triangle.
+struct Piece {
+  struct Corner {
+    std::uint16_t a;
+    std::uint16_t b;
+    friend bool operator==(const Corner&, const Corner&) = default;
+  };
+  std::uint32_t triangle;
+  std::array<Corner, 3> corners{{{0, 0}, {kPieceUnit, 0}, {0, kPieceUnit}}};  ///< all of it
+};
+
 /// A node of the sphere tree. Its children are the contiguous range first .. first + count - 1:
-/// triangles in a leaf, otherwise nodes.
+/// pieces of triangles in a leaf, otherwise nodes.
 struct SphereNode {
   glm::dvec3 centre;
-  double radius;  ///< encloses every triangle below, measured around `centre`; the devices enlarge it
+  double radius;  ///< encloses every piece below, measured around `centre`; the devices enlarge it
   bool leaf;
   std::uint32_t first;
   std::uint32_t count;  ///< 1 .. 127
@@ -39,7 +54,12 @@ struct DeviceScene {
   std::vector<SphereNode> nodes;
   std::uint32_t root_first = 0;  ///< root range: a flat list is all nodes
   std::uint32_t root_count = 0;
-  double max_origin = 0;  ///< no pencil starts farther from the coordinates' zero than this
+  double max_origin = 0;           ///< no pencil starts farther from the coordinates' zero than this
+  std::vector<Piece> pieces = {};  ///< what leaves are ranges of; none: whole triangles, by their IDs
+
+  /// Number of things that leaves are ranges of.
+  [[nodiscard]] std::size_t piece_count() const { return pieces.empty() ? triangles.size() : pieces.size(); }
+  [[nodiscard]] Piece piece(std::uint32_t k) const { return pieces.empty() ? Piece{k} : pieces[k]; }
 };
 
 /// n.x + offset = 0, n of unit length.
@@ -57,6 +77,7 @@ struct Pencil {
   std::vector<Plane> column_planes;    ///< plane c holds the rays of column c
   std::vector<glm::dvec3> directions;  ///< unit length, ray (r, c) at r * columns + c
   glm::dvec3 axis{0};                  ///< unit normal of the grid's plane, towards the grid
+  glm::dvec3 front{0};                 ///< unit normal of the surface that the rays leave, if any
   double far = std::numeric_limits<double>::infinity();  ///< hits deeper along the axis need not be found
   bool any_hit = false;                                  ///< a hit is enough, it need not be the nearest
 };

@@ -33,7 +33,8 @@ template <typename F>
 }
 
 /// The words of the Sphere and Triangle memories. Radii are enlarged by the error bound of the plane-sphere
-/// test and rounded up. Throws std::runtime_error if the memories are too small.
+/// test and rounded up. Throws std::runtime_error if the memories are too small, or for pieces: leaves hold
+/// whole triangles here.
 template <typename F>
 [[nodiscard]] SceneMemory<F> encode(const DeviceScene& scene, const DeviceOptions& options) {
   const auto check = [](const char* what, std::size_t size, std::size_t depth) {
@@ -41,6 +42,9 @@ template <typename F>
       throw std::runtime_error(std::to_string(size) + what + std::to_string(depth));
     }
   };
+  if (!scene.pieces.empty()) {
+    throw std::runtime_error("profile paper holds whole triangles, not pieces");
+  }
   check(" triangles, the Triangle Memory holds ", scene.triangles.size(), options.triangle_depth);
   check(" spheres, the Sphere Memory holds ", scene.nodes.size(), options.sphere_depth);
   SceneMemory<F> memory;

@@ -14,13 +14,13 @@ namespace raplas {
 /// A pencil's slack is at most this, in units of 2^-kCoordinateFraction; a node's radius leaves room for it.
 inline constexpr std::uint32_t kMaxSlack = 255;
 
-/// No corner of a triangle as stored lies farther than this from its vertex word.
+/// No corner of a piece of a triangle as stored lies farther than this from its vertex word.
 inline constexpr double kMaxVertexError = 0x1p-16;
 
 /// A scene's memories.
 struct FixedScene {
   FixedSceneMemory<Fp24> memory;
-  double vertex_error = 0;  ///< largest distance of a triangle's corner as stored from its vertex word
+  double vertex_error = 0;  ///< largest distance of a piece's corner as stored from its vertex word
 };
 
 /// A pencil's bank.
@@ -29,7 +29,7 @@ struct FixedPencil {
   std::array<double, kMaxRays> t_scale{};  ///< Hit::t_scale of each ray
 };
 
-/// The words of a scene that check_tree() passes. Vertices are those of the triangles as stored, to nearest;
+/// The words of a scene that check_tree() passes. Vertices are those of the pieces as stored, to nearest;
 /// corners that were one point before rounding are one vertex. Leaves become strips (strip.hpp) in the order
 /// of the tree, radii enclose the vertex words below exactly. Throws std::runtime_error with one line, naming
 /// the node where it is one, if a vertex lies outside the unit ball, a centre outside the format, a radius
@@ -38,9 +38,9 @@ struct FixedPencil {
 
 /// The words of a pencil for scenes whose vertex_error is at most `vertex_error`. Rays are scaled to axis.D =
 /// 1 before they are rounded. Every ray that hits a triangle, both as stored, before `far` and in exact
-/// arithmetic, has a row and a column that the tests find crossed; `near` holds for a vertex and z is at most
-/// the depth code of t. Throws std::invalid_argument for a pencil without axis or a ray that doesn't go along
-/// it, std::range_error for an origin far outside the unit ball.
+/// arithmetic, has a row and a column that the tests find crossed by a piece of it; `near` holds for one of
+/// the piece's vertices and its z is at most the depth code of t. Throws std::invalid_argument for a pencil
+/// without axis or a ray that doesn't go along it, std::range_error for an origin far outside the unit ball.
 [[nodiscard]] FixedPencil encode_fixed(const Pencil& pencil, double vertex_error = kMaxVertexError);
 
 /// A result as the renderer takes it; `ray` as in FixedPencilMemory::rays.

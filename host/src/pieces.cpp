@@ -56,10 +56,11 @@ std::vector<Piece> cut_large(std::span<const Triangle> triangles, const TreeOpti
     pieces.push_back({k});
     consider(pieces.back(), k);
   }
-  if (waiting.empty()) {
+  const auto extra = static_cast<std::size_t>(options.extra_pieces * static_cast<double>(triangles.size()));
+  if (waiting.empty() || extra == 0) {
     return {};
   }
-  const std::size_t most = triangles.size() + std::max(kMinPieces, triangles.size() / kPieceShare);
+  const std::size_t most = triangles.size() + extra;
   while (!waiting.empty() && pieces.size() < most) {
     const Candidate c = waiting.top();
     waiting.pop();

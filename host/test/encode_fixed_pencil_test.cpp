@@ -273,6 +273,7 @@ TEST(EncodeFixed, EveryHitOfARayAsStoredIsFoundByItsLines) {
     if (random.below(2) == 0) {
       TreeOptions options;
       options.longest_edge = std::exp2(random.uniform(-8, 0));
+      options.extra_pieces = 8;
       tree = build_tree(triangles, options);
     }
     const FixedScene scene = encode_fixed(tree.scene);

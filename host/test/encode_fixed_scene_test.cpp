@@ -92,6 +92,7 @@ TEST(EncodeFixed, NodesHoldEveryVertexBelow) {
 TEST(EncodeFixed, PiecesHaveTheirCornersAndOneTriangleWord) {
   TreeOptions options;
   options.longest_edge = 0.1;
+  options.extra_pieces = 8;
   const SphereTree tree = build_tree(globe(4, 6), options);
   check_tree(tree.scene);
   const FixedScene words = encode_fixed(tree.scene);

@@ -115,6 +115,7 @@ TEST(SphereTree, LargeTrianglesAreCutSmallOnesAreNot) {
       TreeOptions options;
       options.builder = builder;
       options.longest_edge = longest;
+      options.extra_pieces = 1;
       const SphereTree tree = build_tree(triangles, options);
       EXPECT_NO_THROW(check_tree(tree.scene));
       check_source(tree, triangles);
@@ -150,7 +151,7 @@ TEST(SphereTree, PiecesAreFew) {
     options.longest_edge = 1e-5;  // shorter than pieces can get
     const SphereTree tree = build_tree(triangles, options);
     EXPECT_NO_THROW(check_tree(tree.scene));
-    EXPECT_EQ(tree.scene.pieces.size(), triangles.size() + std::max<std::size_t>(256, triangles.size() / 16));
+    EXPECT_EQ(tree.scene.pieces.size(), crumbs == 0 ? 0 : triangles.size() + triangles.size() / 32);
   }
 }
 
@@ -254,7 +255,9 @@ TEST(CheckTree, FindsEachKindOfDamageAndNamesTheNode) {
 }
 
 TEST(CheckTree, FindsPiecesThatAreNotTheTriangle) {
-  const DeviceScene good = build_tree(wall_and_crumbs(20)).scene;
+  TreeOptions options;
+  options.extra_pieces = 1;
+  const DeviceScene good = build_tree(wall_and_crumbs(20), options).scene;
   ASSERT_EQ(complaint(good), "");
   const auto cut = static_cast<std::size_t>(
       std::find_if(good.pieces.begin(), good.pieces.end(),

@@ -25,8 +25,9 @@ struct TreeOptions {
   int width = 4;                              ///< most children of an inner node, 2 .. 127 (tree only)
   TreeBuilder builder = TreeBuilder::pencil;  ///< (tree only)
   double footprint = 0.06;  ///< half the width of a usual pencil at the scene, in the scene's unit (pencil)
-  double longest_edge = 0.25;  ///< triangles with a longer one are cut into pieces (tree only)
-  int root_width = 8;          ///< children that the root gets at least, if there are as many (tree only)
+  double longest_edge = 0.25;      ///< triangles with a longer one are cut into pieces (tree only)
+  double extra_pieces = 1.0 / 32;  ///< most pieces that are added, as a share of the triangles (tree only)
+  int root_width = 8;              ///< children that the root gets at least, if there are as many (tree only)
 };
 
 /// A device's scene without max_origin, and where its triangles came from.

@@ -52,7 +52,7 @@ HITS = {"unit": "result_memory", "unseen": ("best_o", "host_data_o")}
 
 
 def fifo(width, depth_log2, unit="fifo"):
-    return {"unit": unit, "generics": {"WIDTH": width, "DEPTH_LOG2": depth_log2}}
+    return {"unit": unit, "generics": {"WIDTH": width, "DEPTH_LOG2": depth_log2}, "properties": ("queue", unit)}
 
 
 def decoder(rows, columns):

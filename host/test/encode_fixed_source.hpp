@@ -1,8 +1,10 @@
 // What the tests of the fixed-point encoding share: random vectors, a scene of one leaf, vertices by
-// triangle.
+// triangle, the most that slack and vertex_error can be.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <exception>
 #include <functional>
@@ -53,6 +55,29 @@ inline std::vector<std::vector<std::array<FixedVec3, 3>>> slots_of(const FixedSc
     }
   }
   return result;
+}
+
+/// A unit vector across v.
+inline glm::dvec3 any_across(const glm::dvec3& v) {
+  return glm::normalize(glm::cross(v, std::abs(v.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
+}
+
+// The claim of docs/fixed_encoding.md on how large slack and vertex_error are, in units.
+inline const double kHalfDiagonal = std::sqrt(3.0) / 2;  // a vector's rounding to the lattice
+inline constexpr double kSpare = 0x1p-10;
+
+inline double most_slack(const Pencil& pencil, double vertex_error) {
+  return std::ceil((kHalfDiagonal + 1) * (1 + glm::length(pencil.origin)) + vertex_error / kUnit + kSpare);
+}
+
+inline double most_vertex_error(const std::vector<Triangle>& triangles) {
+  double corner = 0;
+  double edge = 0;
+  for (const Triangle& t : triangles) {
+    corner = std::max(corner, glm::length(t.v0));
+    edge = std::max({edge, glm::length(t.e1), glm::length(t.e2)});
+  }
+  return kHalfDiagonal + corner + edge + kSpare;
 }
 
 /// A scene of one leaf.

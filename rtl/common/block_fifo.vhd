@@ -7,7 +7,7 @@
 -- and its output register is data_o. A word in and a word out each clock; for that the
 -- depth is at least 4. A write into a full queue and a read while valid_o = 0 are ignored.
 -- The RAM's word of a read and a write in one clock at one address is never shown.
--- model: cmodel/include/raplas/clocked.hpp     tests: tb/unit/block_fifo
+-- model: cmodel/include/raplas/clocked.hpp     tests: tb/unit/fifo
 -- ============================================================================
 library ieee;
 use ieee.std_logic_1164.all;

@@ -42,21 +42,8 @@ architecture rtl of vertex_grid is
   constant SUM_BITS    : natural := PLANE_SUM_BITS - LEAST_SHIFT;
   constant FACTOR_BITS : natural := 18;
 
-  subtype reciprocal_t is std_ulogic_vector(RECIPROCAL_BITS - 1 downto 0);
-  type reciprocals_t is array (natural range 0 to 2 ** F - 1) of reciprocal_t;
   subtype factor_t is std_ulogic_vector(FACTOR_BITS - 1 downto 0);
   subtype sum_t is std_ulogic_vector(SUM_BITS - 1 downto 0);
-
-  -- 2^RECIPROCAL_BITS / (1 + (i + 1/2) / 2^F), to the nearest integer
-  function reciprocals return reciprocals_t is
-    variable table_v : reciprocals_t;
-  begin
-    for i in table_v'range loop
-      table_v(i) := std_ulogic_vector(to_unsigned(
-        (2 ** (F + RECIPROCAL_BITS + 2) / (2 ** (F + 1) + 2 * i + 1) + 1) / 2, RECIPROCAL_BITS));
-    end loop;
-    return table_v;
-  end function reciprocals;
 
   constant RECIPROCAL : reciprocals_t := reciprocals;
   constant ZERO_48    : std_ulogic_vector(47 downto 0) := (others => '0');
@@ -67,7 +54,7 @@ architecture rtl of vertex_grid is
     deep       : std_ulogic;                        -- depth's exponent isn't below least
     shift      : unsigned(GRID_EXPONENT_BITS downto 2);  -- signed; the rest is done
     reciprocal : reciprocal_t;
-    aside     : sum_t;
+    aside      : sum_t;
     down       : sum_t;
   end record;
 

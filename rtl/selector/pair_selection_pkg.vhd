@@ -25,10 +25,12 @@ package pair_selection_pkg is
   -- a vertex on the pencil's grid of lines: numbers from the middle, GRID_FRACTION fraction bits
   type grid_point_t is record
     known  : std_ulogic;                                   -- else the others don't count
-    aside : std_ulogic_vector(GRID_BITS - 1 downto 0);    -- signed
+    aside  : std_ulogic_vector(GRID_BITS - 1 downto 0);    -- signed: across, a word of AMS-VHDL
     down   : std_ulogic_vector(GRID_BITS - 1 downto 0);    -- signed
   end record;
   constant GRID_POINT_BITS : positive := 1 + 2 * GRID_BITS;
+  subtype grid_place_t is std_ulogic_vector(2 * GRID_BITS - 1 downto 0);   -- without known
+  type grid_places_t is array (0 to 2) of grid_place_t;
   type grid_points_t is array (0 to 2) of grid_point_t;    -- of slots 0, 1, 2
 
   -- a triangle that a pencil meets, or the end of a pencil
@@ -57,6 +59,7 @@ package pair_selection_pkg is
     margin   : std_ulogic_vector(MARGIN_BITS - 1 downto 0);
   end record;
   constant EDGE_CUT_BITS : positive := 1 + 2 * CUT_LINE_BITS + CUT_BITS + SLOPE_BITS + MARGIN_BITS;
+  subtype edge_cut_word_t is std_ulogic_vector(EDGE_CUT_BITS - 1 downto 0);
   type edge_cuts_t is array (0 to 2) of edge_cut_t;
   subtype edge_cuts_word_t is std_ulogic_vector(3 * EDGE_CUT_BITS - 1 downto 0);
 
@@ -102,6 +105,11 @@ package pair_selection_pkg is
   -- the lines to whose bound something at depth z matters
   function lines_beyond(z : depth_t; bounds : line_bounds_t) return line_mask_t;
 
+  -- entry i: 2^RECIPROCAL_BITS / (1 + (i + 1/2) / 2^DEPTH_FRACTION_BITS), to the nearest integer
+  subtype reciprocal_t is std_ulogic_vector(RECIPROCAL_BITS - 1 downto 0);
+  type reciprocals_t is array (natural range 0 to 2 ** DEPTH_FRACTION_BITS - 1) of reciprocal_t;
+  function reciprocals return reciprocals_t;
+
 end package pair_selection_pkg;
 
 package body pair_selection_pkg is
@@ -124,7 +132,7 @@ package body pair_selection_pkg is
     for k in grid_points_t'range loop
       point_v := word((3 - k) * GRID_POINT_BITS - 1 downto (2 - k) * GRID_POINT_BITS);
       fields_v.points(k).known  := point_v(2 * GRID_BITS);
-      fields_v.points(k).aside := point_v(2 * GRID_BITS - 1 downto GRID_BITS);
+      fields_v.points(k).aside  := point_v(2 * GRID_BITS - 1 downto GRID_BITS);
       fields_v.points(k).down   := point_v(GRID_BITS - 1 downto 0);
     end loop;
     return fields_v;
@@ -242,5 +250,16 @@ package body pair_selection_pkg is
     end loop;
     return lines_v;
   end function lines_beyond;
+
+  function reciprocals return reciprocals_t is
+    constant ONE     : natural := 2 ** (DEPTH_FRACTION_BITS + 1);
+    variable table_v : reciprocals_t;
+  begin
+    for i in table_v'range loop
+      table_v(i) := std_ulogic_vector(to_unsigned(
+        (2 ** (RECIPROCAL_BITS + 1) * ONE / (ONE + 2 * i + 1) + 1) / 2, RECIPROCAL_BITS));
+    end loop;
+    return table_v;
+  end function reciprocals;
 
 end package body pair_selection_pkg;

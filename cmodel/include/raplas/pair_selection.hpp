@@ -49,6 +49,28 @@ class TriangleLines {
   CrossingTriangle out_;
 };
 
+/// Entity vertex_grid, clock by clock: the points of the three slots.
+class VertexGrid {
+ public:
+  using Points = std::array<GridPoint, 3>;
+
+  /// The slots with the vertex given kVertexGridStages clocks ago. A point that isn't known is only that.
+  [[nodiscard]] const Points& points() const noexcept { return stages_.out(); }
+
+  /// A vertex goes into slot 0, 1 or 2: its sums over two planes, and its depth code before the margin.
+  void clock(bool valid, std::size_t slot, std::int64_t across, std::int64_t down, std::uint32_t depth,
+             const LimitsWord& limits) noexcept {
+    if (valid && slot < slots_.size()) {
+      slots_[slot] = project(across, down, depth, limits);
+    }
+    stages_.clock(slots_);
+  }
+
+ private:
+  Points slots_{};
+  Delay<Points, kVertexGridStages> stages_;
+};
+
 /// Entity ray_bounds. What is beyond a ray's bound never matters again in that pencil, so a row's bound,
 /// which is that of its last read, may lag and is never too low.
 class RayBounds {

@@ -11,7 +11,6 @@
 #include <cstdlib>
 #include <utility>
 
-#include "raplas/clocked.hpp"
 #include "raplas/fixed_point.hpp"
 
 namespace raplas {
@@ -63,28 +62,6 @@ struct GridPoint {
   const std::int64_t r = reciprocal(depth & ((1U << kDepthFractionBits) - 1));
   return {true, static_cast<std::int32_t>(a * r >> kDropped), static_cast<std::int32_t>(d * r >> kDropped)};
 }
-
-/// Entity vertex_grid, clock by clock: the points of the three slots.
-class VertexGrid {
- public:
-  using Points = std::array<GridPoint, 3>;
-
-  /// The slots with the vertex given kVertexGridStages clocks ago. A point that isn't known is only that.
-  [[nodiscard]] const Points& points() const noexcept { return stages_.out(); }
-
-  /// A vertex goes into slot 0, 1 or 2: its sums over two planes, and its depth code before the margin.
-  void clock(bool valid, std::size_t slot, std::int64_t across, std::int64_t down, std::uint32_t depth,
-             const LimitsWord& limits) noexcept {
-    if (valid && slot < slots_.size()) {
-      slots_[slot] = project(across, down, depth, limits);
-    }
-    stages_.clock(slots_);
-  }
-
- private:
-  Points slots_{};
-  Delay<Points, kVertexGridStages> stages_;
-};
 
 /// The line through an edge: which rows the edge may reach, and where it cuts them.
 struct EdgeCut {

@@ -30,7 +30,7 @@ struct SizeClass {
   int error;     ///< for error_i = 0; doubles with each
   int rounding;  ///< these in units of 1 / kLine lines
 };
-constexpr std::array<SizeClass, 3> kClasses{{{11, 4, 2}, {13, 16, 8}, {kGridBits, 64, 32}}};
+constexpr std::array<SizeClass, 3> kClasses{{{11, 4, 1}, {13, 16, 8}, {kGridBits, 64, 32}}};
 
 std::int32_t sign_extended(std::uint32_t value, int bits) {
   const std::uint32_t sign = std::uint32_t{1} << (bits - 1);

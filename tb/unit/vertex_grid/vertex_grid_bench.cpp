@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "raplas/scan_lines.hpp"
+#include "raplas/pair_selection.hpp"
 #include "support/scoreboard.hpp"
 
 namespace raplas {

@@ -94,7 +94,6 @@ architecture rtl of intersection_unit is
   signal starting   : std_ulogic;   -- the clock after start_i: the pencil's registers are in place
   signal in_pipe    : unsigned(PIPE_BITS - 1 downto 0);   -- pairs issued and not decided
   signal idle       : std_ulogic;
-  signal clearing   : std_ulogic;   -- hit bits of the bank
 
   -- traversal to decoder
   signal request, first_set, last, traversal_idle : std_ulogic;
@@ -173,7 +172,7 @@ begin
     end if;
   end process last_set_p;
 
-  idle <= '1' when traversal_idle = '1' and starting = '0' and clearing = '0' and leaf_valid = '0'
+  idle <= '1' when traversal_idle = '1' and starting = '0' and leaf_valid = '0'
                    and selector_valid = '0' and pair_valid = '0' and in_pipe = 0 else '0';
 
   control_p : process (clk_i)
@@ -433,10 +432,8 @@ begin
   result_memory_i : entity raplas.result_memory
     port map (
       clk_i        => clk_i,
-      rst_i        => rst_i,
       clear_i      => starting,
       clear_bank_i => result_bank,
-      clearing_o   => clearing,
       write_i      => stored,
       write_bank_i => result_bank,
       write_ray_i  => stored_ray,
@@ -445,7 +442,8 @@ begin
       best_ray_i   => best_ray,
       best_o       => best,
       host_ray_i   => host_ray,
-      host_data_o  => result_o
+      host_data_o  => result_o,
+      hit_rows_o   => open
     );
 
   -- --------------------------------------------------------------------------

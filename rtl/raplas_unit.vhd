@@ -5,8 +5,8 @@
 --   sphere_half:    sphere tree -> triangles that the pencil may hit
 --   pair_half:      triangles -> (ray, triangle) pairs -> nearest hits
 -- The host writes words with target, address and data (right-aligned), and starts
--- loaded banks, up to PENCIL_BANKS of them; a bank's results stand when its busy
--- bit is 0 again. The counters count from reset on.
+-- loaded banks, up to PENCIL_BANKS of them; a bank's results stand from when its busy
+-- bit is 0 again until it is started again. The counters count from reset on.
 -- The ports in the last group show the edges between the units for traces; left
 -- open they cost nothing.
 -- model: cmodel/include/raplas/raplas_unit.hpp     tests: tb/integration/raplas_unit
@@ -35,6 +35,8 @@ entity raplas_unit is
     data_i          : in  std_ulogic_vector(TRIANGLE_BITS - 1 downto 0);
     result_ray_i    : in  std_ulogic_vector(BANK_BITS + 2 * LINE_BITS - 1 downto 0);   -- bank, ray
     result_o        : out result_word_t;                                 -- MEMORY_STAGES later
+    hit_rows_o      : out std_ulogic_vector(PENCIL_BANKS * MAX_ROWS - 1 downto 0);
+                      -- bank b, row r at b * MAX_ROWS + r: a ray of it has a hit
     -- host: control
     start_i         : in  std_ulogic;
     bank_i          : in  std_ulogic_vector(BANK_BITS - 1 downto 0);     -- of the pencil to start
@@ -66,8 +68,6 @@ end entity raplas_unit;
 
 architecture rtl of raplas_unit is
 
-  constant VECTOR_BITS : positive := 3 * FP_BITS;
-
   -- registers that the host writes
   type pencils_t is array (0 to PENCIL_BANKS - 1) of pencil_word_t;
   type limits_words_t is array (0 to PENCIL_BANKS - 1) of limits_word_t;
@@ -76,14 +76,15 @@ architecture rtl of raplas_unit is
   signal scene_word   : scene_word_t;
   signal scene        : scene_t;
   signal write        : std_ulogic_vector(7 downto 0);   -- one for each target
-  signal origins      : std_ulogic_vector(PENCIL_BANKS * VECTOR_BITS - 1 downto 0);
+  signal all_pencils  : std_ulogic_vector(PENCIL_BANKS * PENCIL_BITS - 1 downto 0);
   signal all_limits   : std_ulogic_vector(PENCIL_BANKS * LIMITS_BITS - 1 downto 0);
 
-  -- the pencil whose turn it is
-  signal bank         : bank_t;
-  signal pencil       : pencil_t;
-  signal limits       : limits_t;
-  signal clear, clearing, load, walk, walk_tree, walk_idle : std_ulogic;
+  -- the pencil that is cleared, that whose planes are loaded, that whose turn it is
+  signal clear_bank, load_bank, bank       : bank_t;
+  signal clear_pencil, pencil              : pencil_t;
+  signal clear_limits, limits              : limits_t;
+  signal clear, load                       : std_ulogic;
+  signal walk, walk_tree, spent, walk_idle : std_ulogic;
   signal line         : std_ulogic_vector(PLANE_INDEX_BITS - 1 downto 0);
   signal row_bounds   : std_ulogic_vector(MAX_ROWS * DEPTH_BITS - 1 downto 0);
 
@@ -126,11 +127,17 @@ begin
 
   scene <= unpack_scene(scene_word);
 
-  banks_p : process (pencils, limits_words, bank)
+  banks_p : process (pencils, limits_words, bank, clear_bank)
   begin
-    pencil <= unpack_pencil(pencils(0));
-    limits <= unpack_limits(limits_words(0));
+    pencil       <= unpack_pencil(pencils(0));
+    limits       <= unpack_limits(limits_words(0));
+    clear_pencil <= unpack_pencil(pencils(0));
+    clear_limits <= unpack_limits(limits_words(0));
     for k in 1 to PENCIL_BANKS - 1 loop
+      if unsigned(clear_bank) = k then
+        clear_pencil <= unpack_pencil(pencils(k));
+        clear_limits <= unpack_limits(limits_words(k));
+      end if;
       if unsigned(bank) = k then
         pencil <= unpack_pencil(pencils(k));
         limits <= unpack_limits(limits_words(k));
@@ -139,8 +146,7 @@ begin
   end process banks_p;
 
   registers_g : for k in 0 to PENCIL_BANKS - 1 generate
-    origins((k + 1) * VECTOR_BITS - 1 downto k * VECTOR_BITS)
-      <= pencils(k)(VECTOR_BITS - 1 downto 0);
+    all_pencils((k + 1) * PENCIL_BITS - 1 downto k * PENCIL_BITS) <= pencils(k);
     all_limits((k + 1) * LIMITS_BITS - 1 downto k * LIMITS_BITS) <= limits_words(k);
   end generate registers_g;
 
@@ -154,14 +160,16 @@ begin
       start_i       => start_i,
       bank_i        => bank_i,
       busy_o        => busy,
-      bank_o        => bank,
-      rows_i        => pencil.rows,
-      columns_i     => pencil.columns,
       clear_o       => clear,
-      clearing_i    => clearing,
+      clear_bank_o  => clear_bank,
+      rows_i        => clear_pencil.rows,
+      columns_i     => clear_pencil.columns,
       load_o        => load,
+      load_bank_o   => load_bank,
       line_o        => line,
+      bank_o        => bank,
       walk_o        => walk,
+      walk_spent_i  => spent,
       walk_idle_i   => walk_idle,
       token_o       => token,
       token_ready_i => token_ready,
@@ -203,7 +211,7 @@ begin
       write_vertex_i => write(TARGET_VERTEX),
       write_plane_i  => write(TARGET_PLANE),
       address_i      => address_i,
-      data_i         => data_i(NODE_BITS - 1 downto 0),
+      data_i         => data_i(2 * FIXED_PLANE_BITS - 1 downto 0),
       bank_i         => bank,
       rows_i         => pencil.rows,
       columns_i      => pencil.columns,
@@ -211,8 +219,10 @@ begin
       scale_i        => limits.scale,
       least_i        => limits.least,
       load_i         => load,
+      load_bank_i    => load_bank,
       line_i         => line,
       walk_i         => walk_tree,
+      spent_o        => spent,
       idle_o         => walk_idle,
       root_first_i   => scene.first,
       root_count_i   => scene.count(COUNT_BITS - 1 downto 0),
@@ -240,14 +250,14 @@ begin
       data_i             => data_i,
       result_ray_i       => result_ray_i,
       result_o           => result_o,
-      origins_i          => origins,
+      hit_rows_o         => hit_rows_o,
+      pencils_i          => all_pencils,
       limits_i           => all_limits,
-      walk_bank_i        => bank,
-      rows_i             => pencil.rows,
-      columns_i          => pencil.columns,
-      far_i              => limits.far,
       clear_i            => clear,
-      clearing_o         => clearing,
+      clear_bank_i       => clear_bank,
+      clear_rows_i       => clear_pencil.rows,
+      clear_far_i        => clear_limits.far,
+      walk_bank_i        => bank,
       row_bounds_o       => row_bounds,
       valid_i            => found_valid,
       word_i             => found_word,

@@ -73,6 +73,7 @@ always @* begin
     goes: assert (request_o == (r_active && (!vertex_o || testing + triangles_i < OBJECTS)));
     goes_on: assert (!ready_to_go || r_active || stack_level_o + 1 == was_level);
     at_the_end: assert (idle_o == (!r_active && stack_level_o == 0 && testing == 0));
+    spent_first: assert (!idle_o || spent_o);
 
     // the upper siblings lie nearest first
     sorted: assert ((r_siblings < 2 || top_0[DEPTH_BITS-1:0] <= top_1[DEPTH_BITS-1:0])
@@ -103,11 +104,12 @@ wire [MAX_ROWS-1:0]       r_rows;
 wire [MAX_COLUMNS-1:0]    r_columns;
 wire [STACK_DEPTH_LOG2:0] r_level;
 wire [TESTED_BITS-1:0]    r_under_test;
+wire [3:0]                r_vertices;
 wire [1:0]                r_siblings;
-assign {r_siblings, r_under_test, r_level, r_columns, r_rows, r_left, r_address, r_leaf, r_active} = r;
+assign {r_siblings, r_vertices, r_under_test, r_level, r_columns, r_rows, r_left, r_address, r_leaf, r_active} = r;
 wire [RANGE_BITS-1:0]     top_0, top_1, top_2, top_3;
 assign {top_0, top_1, top_2, top_3} = top;
 generate
-  if ($bits(r) != 2 + ID_BITS + COUNT_BITS + MAX_ROWS + MAX_COLUMNS + STACK_DEPTH_LOG2 + 1 + TESTED_BITS + 2
+  if ($bits(r) != 2 + ID_BITS + COUNT_BITS + MAX_ROWS + MAX_COLUMNS + STACK_DEPTH_LOG2 + 1 + TESTED_BITS + 6
       || $bits(top) != SORTED_RANGES * RANGE_BITS || SORTED_RANGES != 4) layout_of_reg_t_is_another refused();
 endgenerate

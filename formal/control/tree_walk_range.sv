@@ -70,7 +70,7 @@ always @(posedge clk_i) begin
     in_ram <= 1;
     place  <= r_level;
   end else if (pop && !push_i && place == refill_entry) in_ram <= 0;
-  refill_was_good <= rst_i || r_level <= SORTED_RANGES || good(refill_entry, refill);
+  refill_was_good <= rst_i || r_level <= SORTED_RANGES || good(refill_entry, stack[refill_entry]);
   if (rst_i) in_ram <= 0;
 end
 

@@ -45,7 +45,8 @@ always @(posedge clk_i) begin
     inner_left <= inner;
     children   <= inner == 0 ? taken_budget : taken_budget - (inner - 1);
   end
-  refill_was_good <= rst_i || r_level <= SORTED_RANGES || fits(refill_entry - SORTED_RANGES, budget(refill), 0);
+  refill_was_good <= rst_i || r_level <= SORTED_RANGES
+                     || fits(refill_entry - SORTED_RANGES, budget(stack[refill_entry]), 0);
   if (rst_i) begin
     older      <= 0;
     inner_left <= 0;

@@ -201,36 +201,8 @@ class RtlUnit {
   }
 
   void write_pencil_word(const FixedPencilMemory<Fp24>& pencil, std::size_t bank, std::size_t word) {
-    const std::size_t rows = pencil.pencil.rows;
-    const std::size_t columns = pencil.pencil.columns;
-    const auto plane = [&](std::size_t side, std::size_t index, const FixedPlane& p) {
-      unit_->set_write(Target::plane, (bank * 2 + side) << kPlaneIndexBits | index, p.pack());
-    };
-    constexpr std::size_t kRowSide = 0;
-    constexpr std::size_t kColumnSide = 1;
-    if (word == 0) {
-      unit_->set_write(Target::pencil, bank, pencil.pencil.pack());
-    } else if (word == 1) {
-      unit_->set_write(Target::limits, bank, pencil.limits.pack());
-    } else if (word == 2) {
-      plane(kRowSide, kAxisPlane, pencil.planes.near);
-    } else if (word == 3) {
-      plane(kRowSide, kGridPlane, pencil.planes.down);
-    } else if (word == 4) {
-      plane(kColumnSide, kAxisPlane, pencil.planes.depth);
-    } else if (word == 5) {
-      plane(kColumnSide, kGridPlane, pencil.planes.across);
-    } else if (word < kPencilHead + rows) {
-      const std::size_t r = word - kPencilHead;
-      plane(kRowSide, r, pencil.planes.rows[r]);
-    } else if (word < kPencilHead + rows + columns) {
-      const std::size_t c = word - kPencilHead - rows;
-      plane(kColumnSide, c, pencil.planes.columns[c]);
-    } else {
-      const std::size_t k = word - kPencilHead - rows - columns;
-      const std::size_t ray = k / columns * kMaxColumns + k % columns;
-      unit_->set_write(Target::ray, bank * kMaxRays + ray, pack_ray(pencil.rays[ray]));
-    }
+    const HostWord host = pencil_word(pencil, bank, word);
+    unit_->set_write(host.target, host.address, host.data);
   }
 
   void ask(std::size_t bank, std::size_t ray) {
@@ -245,6 +217,9 @@ class RtlUnit {
   }
 
   [[nodiscard]] std::uint32_t busy() const { return (*unit_)->busy_o; }
+  [[nodiscard]] LineMask hit_rows(std::size_t bank) const {
+    return static_cast<LineMask>((*unit_)->hit_rows_o >> (bank * kMaxRows) & ((1U << kMaxRows) - 1));
+  }
   [[nodiscard]] ResultWord<Fp24> result() const { return unit_->result<Fp24>(); }
   [[nodiscard]] EventCounters counters() const {
     EventCounters counters{};

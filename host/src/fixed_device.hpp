@@ -5,23 +5,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "raplas/encode_fixed.hpp"
+#include "raplas/host_port.hpp"
 
 namespace raplas {
-
-/// Words of a pencil before those of its lines: two registers, and two planes of each side.
-inline constexpr std::size_t kPencilHead = 6;
-
-/// Words of a pencil, in the order in which FixedDevice writes them: head, rows, columns, rays of its rows.
-[[nodiscard]] inline std::size_t pencil_words(const FixedPencilMemory<Fp24>& pencil) {
-  const std::size_t rows = pencil.pencil.rows;
-  const std::size_t columns = pencil.pencil.columns;
-  return kPencilHead + rows + columns + rows * columns;
-}
 
 /// What the unit would do with the pencil and a sphere of the root range: walk on, or drop the sphere.
 [[nodiscard]] inline bool meets(const FixedPencilMemory<Fp24>& pencil, const NodeWord& node) {
@@ -35,7 +27,7 @@ inline constexpr std::size_t kPencilHead = 6;
 ///   load(scene)                             resets, writes the memories
 ///   write_pencil_word(pencil, bank, k)      in the next clock()
 ///   ask(bank, ray)                          in the next clock(); result() after kMemoryStages of them
-///   clock(start, bank), busy(), result(), counters()
+///   clock(start, bank), busy(), hit_rows(bank), result(), counters()
 template <typename Unit>
 class FixedDevice final : public IntersectionDevice {
  public:
@@ -83,7 +75,16 @@ class FixedDevice final : public IntersectionDevice {
  private:
   static constexpr std::uint64_t kHangClocks = 100'000'000;
 
-  /// How many pencils have got how far. Pencil k of `order` uses bank k modulo kPencilBanks.
+  /// A ray whose result was asked for.
+  struct Asked {
+    std::size_t pencil = 0;  ///< of `order`
+    std::size_t ray = 0;
+    std::size_t place = 0;  ///< in the bank
+  };
+
+  /// How many pencils have got how far. Pencil k of `order` uses bank k modulo kPencilBanks: it is written
+  /// while results of the pencil before it there are still being read, and started when all of them are asked
+  /// for.
   struct Progress {
     std::size_t encoded = 0;         ///< of all pencils
     std::vector<std::size_t> order;  ///< those of them that may hit something
@@ -92,8 +93,10 @@ class FixedDevice final : public IntersectionDevice {
     std::size_t word = 0;  ///< next one of pencil `written`
     std::size_t started = 0;
     std::size_t finished = 0;
+    std::size_t asked = 0;                     ///< for all their results
+    std::size_t ray = 0;                       ///< next one asked for of pencil `asked`
+    std::deque<std::optional<Asked>> answers;  ///< that are on their way; one for each clock
     std::size_t read = 0;
-    std::size_t ray = 0;     ///< next one asked for of pencil `read`
     std::uint64_t idle = 0;  ///< clocks since a pencil finished
   };
 
@@ -105,20 +108,11 @@ class FixedDevice final : public IntersectionDevice {
 
   void clock(std::span<const Pencil> pencils, std::vector<std::vector<Hit>>& hits, Progress& at) {
     const std::size_t startable = at.written;
-    if (at.written < at.order.size() && at.written - at.read < kPencilBanks) {
+    if (at.written < at.order.size() && at.written - at.finished < kPencilBanks) {
       write_word(pencils, hits, at);
     }
-    const bool reading = at.read < at.finished;
-    const std::size_t index = reading ? at.order[at.read] : 0;
-    const std::size_t rays = reading ? pencils[index].directions.size() : 0;
-    const auto place = [&](std::size_t ray) {
-      const auto columns = static_cast<std::size_t>(pencils[index].columns);
-      return ray / columns * kMaxColumns + ray % columns;
-    };
-    if (at.ray < rays) {
-      unit_.ask(at.read % kPencilBanks, place(at.ray));
-    }
-    const bool start = at.started < startable;
+    at.answers.push_back(ask(pencils, hits, at));
+    const bool start = at.started < startable && at.started - at.asked < kPencilBanks;
     unit_.clock(start, at.started % kPencilBanks);
     ++clocks_;
     at.started += start ? 1 : 0;
@@ -130,18 +124,42 @@ class FixedDevice final : public IntersectionDevice {
     if (at.idle == kHangClocks) {
       throw std::runtime_error("a pencil did not end within 100 million clocks");
     }
-    if (reading) {
-      ++at.ray;
-      if (at.ray >= kMemoryStages) {
-        const std::size_t ray = at.ray - kMemoryStages;
-        hits[index].push_back(decode_fixed(unit_.result(), at.banks.front(), place(ray)));
+    if (at.answers.size() == kMemoryStages) {
+      if (const auto& answer = at.answers.front()) {
+        hits[at.order[answer->pencil]][answer->ray] =
+            decode_fixed(unit_.result(), at.banks[answer->pencil - at.read], answer->place);
       }
-      if (at.ray == rays + kMemoryStages - 1) {
-        at.banks.pop_front();
+      at.answers.pop_front();
+    }
+    const auto awaited = [&at](const std::optional<Asked>& a) { return a && a->pencil == at.read; };
+    while (at.read < at.asked && std::none_of(at.answers.begin(), at.answers.end(), awaited)) {
+      at.banks.pop_front();
+      ++at.read;
+    }
+  }
+
+  /// Asks for the result of the next ray of the finished pencils whose row has a hit.
+  std::optional<Asked> ask(std::span<const Pencil> pencils, std::vector<std::vector<Hit>>& hits,
+                           Progress& at) {
+    while (at.asked < at.finished) {
+      const Pencil& pencil = pencils[at.order[at.asked]];
+      const std::size_t bank = at.asked % kPencilBanks;
+      const auto columns = static_cast<std::size_t>(pencil.columns);
+      const std::size_t row = at.ray / columns;
+      hits[at.order[at.asked]].resize(pencil.directions.size());
+      if (at.ray == pencil.directions.size()) {
+        ++at.asked;
         at.ray = 0;
-        ++at.read;
+      } else if ((unit_.hit_rows(bank) >> row & 1U) == 0) {
+        at.ray += columns;
+      } else {
+        const Asked asked{at.asked, at.ray, row * kMaxColumns + at.ray % columns};
+        unit_.ask(bank, asked.place);
+        ++at.ray;
+        return asked;
       }
     }
+    return std::nullopt;
   }
 
   /// Encodes pencils up to the next one that meets a sphere of the root range; the others hit nothing.

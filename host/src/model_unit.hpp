@@ -30,6 +30,7 @@ class ModelUnit {
     unit_->clock(start, bank);
   }
   [[nodiscard]] std::uint32_t busy() const { return unit_->busy(); }
+  [[nodiscard]] LineMask hit_rows(std::size_t bank) const { return unit_->hit_rows(bank); }
   [[nodiscard]] ResultWord<Fp24> result() const { return results_.out(); }
   [[nodiscard]] EventCounters counters() const { return unit_->counters(); }
   [[nodiscard]] const RaplasUnit<Fp24>& model() const { return *unit_; }

@@ -148,6 +148,7 @@ class ObservedUnit {
   }
   void ask(std::size_t bank, std::size_t ray) { unit_.ask(bank, ray); }
   [[nodiscard]] std::uint32_t busy() const { return unit_.busy(); }
+  [[nodiscard]] LineMask hit_rows(std::size_t bank) const { return unit_.hit_rows(bank); }
   [[nodiscard]] ResultWord<Fp24> result() const { return unit_.result(); }
   [[nodiscard]] EventCounters counters() const { return unit_.counters(); }
 

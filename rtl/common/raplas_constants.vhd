@@ -105,6 +105,8 @@ package raplas_constants is
   constant PENCIL_BANKS : natural := 4;
   -- PENCIL_BANKS = 2^2
   constant BANK_BITS : natural := 2;
+  -- 2^2 rays of a row are one word of the host's write port
+  constant WORD_RAYS_LOG2 : natural := 2;
   -- index of the near plane on the row side, of the depth plane on the column side
   constant AXIS_PLANE : natural := 16;
   -- index of the down plane on the row side, of the across plane on the column side
@@ -173,7 +175,7 @@ package raplas_constants is
   function unpack_plane(word : plane_word_t) return plane_t;
   function pack_plane(fields : plane_t) return plane_word_t;
 
-  -- unit direction; address = bank * 256 + ray ID
+  -- unit direction; address = bank * 256 + ray ID, four in a word in profile raplas: that / 4
   constant RAY_BITS : natural := 72;
   subtype ray_word_t is std_ulogic_vector(71 downto 0);
   type ray_t is record
@@ -251,7 +253,7 @@ package raplas_constants is
   function unpack_vertex(word : vertex_word_t) return vertex_t;
   function pack_vertex(fields : vertex_t) return vertex_word_t;
 
-  -- n.x + p = 0, |n| <= 1; address = bank * 64 + side * 32 + index
+  -- n.x + p = 0, |n| <= 1; two in a word, the row side low; address = bank * 32 + index
   constant FIXED_PLANE_BITS : natural := 90;
   subtype fixed_plane_word_t is std_ulogic_vector(89 downto 0);
   type fixed_plane_t is record

@@ -4,12 +4,13 @@
 --   @2  bounds of the row asked for                        MEMORY_STAGES
 --   @6  their maximum, by a tree of one level a clock      LINE_BITS
 --   @7  it is the row's bound
--- A depth code for each ray of four pencils. clear_i begins a pencil: a row a
--- clock is set, unless an update has the write port; the row's bounds at once.
+-- A depth code for each ray of four pencils. clear_i begins a pencil: its rows have
+-- the bound `far` at once; those of a row's rays count from its first update on, which
+-- writes them all: hit_rows_i tells which rows had one.
 -- What is beyond a ray's bound never matters again in that pencil: a row's bound,
 -- which is that of its last read, may lag and is never too low.
--- Not while clearing_o: clear_i; reads and updates of that bank. Nor a read of it
--- in the clock of its clear_i and the 5 before: its maximum would come too late.
+-- No read of a bank in the clock of its clear_i and the 5 before: its maximum would
+-- come too late.
 -- model: cmodel/include/raplas/pair_selection.hpp     tests: tb/unit/ray_bounds
 -- ============================================================================
 library ieee;
@@ -26,17 +27,20 @@ entity ray_bounds is
     clear_i           : in  std_ulogic;                               -- a pencil begins
     clear_bank_i      : in  bank_t;
     clear_rows_i      : in  std_ulogic_vector(LINE_BITS downto 0);    -- of the pencil, 1 .. 16
-    clear_columns_i   : in  std_ulogic_vector(LINE_BITS downto 0);    -- 1 .. 16
-    clear_far_i       : in  depth_t;                                  -- for its rays; 0 elsewhere
-    clearing_o        : out std_ulogic;                               -- not all rows are set yet
+    clear_far_i       : in  depth_t;                                  -- bound of its rows; 0 beyond
+    hit_rows_i        : in  std_ulogic_vector(PENCIL_BANKS * MAX_ROWS - 1 downto 0);
+                      -- bank b, row r at b * MAX_ROWS + r: updated since clear_i, before this clock
     update_i          : in  std_ulogic;
     update_bank_i     : in  bank_t;
+    update_columns_i  : in  std_ulogic_vector(LINE_BITS downto 0);    -- of its pencil, 1 .. 16
+    update_far_i      : in  depth_t;                                  -- as it was at clear_i
     update_ray_i      : in  std_ulogic_vector(2 * LINE_BITS - 1 downto 0);  -- row, column
     update_bound_i    : in  depth_t;                                  -- right for the whole pencil
     read_i            : in  std_ulogic;
     read_bank_i       : in  bank_t;
     read_row_i        : in  line_t;
-    bounds_o          : out line_bounds_t;                            -- MEMORY_STAGES later
+    bounds_o          : out line_bounds_t;                            -- MEMORY_STAGES later, for
+    row_hit_o         : out std_ulogic;                               -- a row that was updated
     walk_bank_i       : in  bank_t;
     row_bounds_o      : out line_bounds_t;                            -- of its rows, same clock
     pair_bank_i       : in  bank_t;
@@ -49,14 +53,7 @@ architecture rtl of ray_bounds is
   constant MAXIMUM_STAGES : positive := MEMORY_STAGES + LINE_BITS;
   constant ADDRESS_BITS   : positive := BANK_BITS + LINE_BITS;
 
-  type clear_t is record
-    active  : std_ulogic;
-    bank    : bank_t;
-    row     : unsigned(LINE_BITS - 1 downto 0);   -- to be set next
-    rows    : unsigned(LINE_BITS downto 0);
-    columns : unsigned(LINE_BITS downto 0);
-    far     : depth_t;
-  end record;
+  subtype address_t is std_ulogic_vector(ADDRESS_BITS - 1 downto 0);
 
   type read_t is record
     valid : std_ulogic;
@@ -68,9 +65,10 @@ architecture rtl of ray_bounds is
   type depths_t is array (natural range <>) of depth_t;
   type banks_t is array (0 to PENCIL_BANKS - 1) of line_bounds_t;
 
-  signal clear         : clear_t;
-  signal write_address : std_ulogic_vector(ADDRESS_BITS - 1 downto 0);
-  signal read_address  : std_ulogic_vector(ADDRESS_BITS - 1 downto 0);
+  signal write_address : address_t;
+  signal read_address  : address_t;
+  signal first_update  : std_ulogic;                        -- of its row
+  signal row_hit       : std_ulogic_vector(1 downto 0);     -- k+1 clocks old
   signal bounds        : line_bounds_t;
   signal reads         : reads_t;
   signal s3            : depths_t(0 to 7);
@@ -99,51 +97,38 @@ architecture rtl of ray_bounds is
     return bounds_v;
   end function of_bank;
 
+  function bit_of(rows : std_ulogic_vector; address : address_t) return std_ulogic is
+    variable bit_v : std_ulogic := '0';
+  begin
+    for k in rows'range loop
+      if unsigned(address) = k then
+        bit_v := rows(k);
+      end if;
+    end loop;
+    return bit_v;
+  end function bit_of;
+
 begin
 
-  clear_p : process (clk_i)
-  begin
-    if rising_edge(clk_i) then
-      if clear_i = '1' then
-        clear.active  <= '1';
-        clear.bank    <= clear_bank_i;
-        clear.row     <= (others => '0');
-        clear.rows    <= unsigned(clear_rows_i);
-        clear.columns <= unsigned(clear_columns_i);
-        clear.far     <= clear_far_i;
-      elsif update_i = '0' then
-        clear.row <= clear.row + 1;
-        if clear.row = NUM_LINES - 1 then
-          clear.active <= '0';
-        end if;
-      end if;
-      if rst_i = '1' then
-        clear.active <= '0';
-      end if;
-    end if;
-  end process clear_p;
-
-  write_address <= update_bank_i & update_ray_i(2 * LINE_BITS - 1 downto LINE_BITS)
-                   when update_i = '1' else clear.bank & std_ulogic_vector(clear.row);
+  write_address <= update_bank_i & update_ray_i(2 * LINE_BITS - 1 downto LINE_BITS);
   read_address  <= read_bank_i & read_row_i;
+  first_update  <= not bit_of(hit_rows_i, write_address);
 
   column_g : for k in 0 to NUM_LINES - 1 generate
     signal write_now : std_ulogic;
     signal data      : depth_t;
   begin
-    write_p : process (clear, update_i, update_ray_i, update_bound_i)
+    write_p : process (update_i, update_columns_i, update_far_i, update_ray_i, update_bound_i,
+                       first_update)
     begin
-      write_now <= clear.active;
+      write_now <= update_i and first_update;
       data      <= (others => '0');
-      if clear.row < clear.rows and k < clear.columns then
-        data <= clear.far;
+      if k < unsigned(update_columns_i) then
+        data <= update_far_i;
       end if;
-      if update_i = '1' then
-        write_now <= '0';
-        if unsigned(update_ray_i(LINE_BITS - 1 downto 0)) = k then
-          write_now <= '1';
-        end if;
-        data <= update_bound_i;
+      if unsigned(update_ray_i(LINE_BITS - 1 downto 0)) = k then
+        write_now <= update_i;
+        data      <= update_bound_i;
       end if;
     end process write_p;
 
@@ -162,6 +147,7 @@ begin
   maximum_p : process (clk_i)
   begin
     if rising_edge(clk_i) then
+      row_hit <= row_hit(0) & bit_of(hit_rows_i, read_address);
       for k in s3'range loop
         s3(k) <= greater(bounds((2 * k + 1) * DEPTH_BITS - 1 downto 2 * k * DEPTH_BITS),
                          bounds((2 * k + 2) * DEPTH_BITS - 1 downto (2 * k + 1) * DEPTH_BITS));
@@ -178,6 +164,7 @@ begin
       for k in 2 to MAXIMUM_STAGES loop
         reads(k) <= reads(k - 1);
       end loop;
+      reads(MEMORY_STAGES + 1).valid <= reads(MEMORY_STAGES).valid and row_hit(1);
       if rst_i = '1' then
         for k in reads_t'range loop
           reads(k).valid <= '0';
@@ -209,8 +196,8 @@ begin
     end if;
   end process row_bounds_p;
 
-  clearing_o        <= clear.active;
   bounds_o          <= bounds;
+  row_hit_o         <= row_hit(1);
   row_bounds_o      <= of_bank(row_bounds, walk_bank_i);
   pair_row_bounds_o <= of_bank(row_bounds, pair_bank_i);
 

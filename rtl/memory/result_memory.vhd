@@ -2,9 +2,9 @@
 -- result_memory - the nearest hit so far of each ray, PENCIL_BANKS banks
 -- ----------------------------------------------------------------------------
 --   @2  word of the ray asked for, at both read ports
--- The hit bits live in a small memory of their own, a word for each row. clear_i
--- empties a bank's in MAX_ROWS clocks, not counting those in which write_i, for
--- another bank, has their only write port.
+-- The hit bits live in a small memory of their own, a word for each row, which counts
+-- from the row's first write on; a register for each row tells that. clear_i empties
+-- a bank at once.
 -- model: cmodel/include/raplas/intersection_unit.hpp     tests: tb/unit/result_memory
 -- ============================================================================
 library ieee;
@@ -16,19 +16,19 @@ use raplas.raplas_constants.all;
 entity result_memory is
   port (
     clk_i        : in  std_ulogic;
-    rst_i        : in  std_ulogic;
-    clear_i      : in  std_ulogic;                                    -- starts to clear a bank ...
+    clear_i      : in  std_ulogic;                                    -- no ray of it has a hit
     clear_bank_i : in  std_ulogic_vector(BANK_BITS - 1 downto 0);
-    clearing_o   : out std_ulogic;                                    -- ... which is not over yet
     write_i      : in  std_ulogic;
-    write_bank_i : in  std_ulogic_vector(BANK_BITS - 1 downto 0);     -- not the one being cleared
+    write_bank_i : in  std_ulogic_vector(BANK_BITS - 1 downto 0);     -- not the one that is cleared
     write_ray_i  : in  std_ulogic_vector(2 * LINE_BITS - 1 downto 0);
     write_data_i : in  result_word_t;                                 -- its hit bit counts as 1
     best_bank_i  : in  std_ulogic_vector(BANK_BITS - 1 downto 0);
     best_ray_i   : in  std_ulogic_vector(2 * LINE_BITS - 1 downto 0);
     best_o       : out result_word_t;                                 -- MEMORY_STAGES later
     host_ray_i   : in  std_ulogic_vector(BANK_BITS + 2 * LINE_BITS - 1 downto 0);   -- bank, ray
-    host_data_o  : out result_word_t                                  -- MEMORY_STAGES later
+    host_data_o  : out result_word_t;                                 -- MEMORY_STAGES later
+    hit_rows_o   : out std_ulogic_vector(PENCIL_BANKS * MAX_ROWS - 1 downto 0)
+                    -- bank b, row r at b * MAX_ROWS + r: a ray of it has a hit
   );
 end entity result_memory;
 
@@ -46,17 +46,31 @@ architecture rtl of result_memory is
   signal best_data     : data_t;
   signal host_data     : data_t;
 
-  signal hits       : hits_t;
-  signal best_hit   : std_ulogic_vector(1 downto 0);   -- k+1 clocks old
-  signal host_hit   : std_ulogic_vector(1 downto 0);
-  signal clearing   : std_ulogic;
-  signal clear_bank : unsigned(BANK_BITS - 1 downto 0);
-  signal clear_row  : unsigned(LINE_BITS - 1 downto 0);
+  signal hits     : hits_t;
+  signal hit_rows : std_ulogic_vector(PENCIL_BANKS * MAX_ROWS - 1 downto 0);
+  signal best_hit : std_ulogic_vector(1 downto 0);   -- k+1 clocks old
+  signal host_hit : std_ulogic_vector(1 downto 0);
 
   function row_of(address : ray_address_t) return natural is
   begin
     return to_integer(unsigned(address(ADDRESS_BITS - 1 downto LINE_BITS)));
   end function row_of;
+
+  -- the hits of the row of an address
+  function hits_of(words : hits_t; written : std_ulogic_vector; address : ray_address_t)
+    return row_hits_t is
+    variable written_v : std_ulogic := '0';
+  begin
+    for k in written'range loop
+      if row_of(address) = k then
+        written_v := written(k);
+      end if;
+    end loop;
+    if written_v = '1' then
+      return words(row_of(address));
+    end if;
+    return (others => '0');
+  end function hits_of;
 
   function bit_of(row : row_hits_t; address : ray_address_t) return std_ulogic is
     variable bit_v : std_ulogic := '0';
@@ -96,52 +110,33 @@ begin
       read_data_o     => host_data
     );
 
-  clear_p : process (clk_i)
-  begin
-    if rising_edge(clk_i) then
-      if rst_i = '1' then
-        clearing <= '0';
-      elsif clear_i = '1' then
-        clearing <= '1';
-      elsif clear_row = MAX_ROWS - 1 and write_i = '0' then
-        clearing <= '0';
-      end if;
-      if clear_i = '1' then
-        clear_bank <= unsigned(clear_bank_i);
-        clear_row  <= (others => '0');
-      elsif write_i = '0' then
-        clear_row <= clear_row + 1;
-      end if;
-    end if;
-  end process clear_p;
-
   hits_p : process (clk_i)
-    variable address_v : unsigned(BANK_BITS + LINE_BITS - 1 downto 0);
-    variable row_v     : row_hits_t;
+    variable row_v : row_hits_t;
   begin
     if rising_edge(clk_i) then
-      if write_i = '0' then
-        address_v := clear_bank & clear_row;
-        row_v     := (others => '0');
-      else
-        address_v := unsigned(write_address(ADDRESS_BITS - 1 downto LINE_BITS));
-        row_v     := hits(to_integer(address_v));
-        for k in row_v'range loop
-          if unsigned(write_address(LINE_BITS - 1 downto 0)) = k then
-            row_v(k) := '1';
-          end if;
-        end loop;
+      row_v := hits_of(hits, hit_rows, write_address);
+      for k in row_v'range loop
+        if unsigned(write_address(LINE_BITS - 1 downto 0)) = k then
+          row_v(k) := '1';
+        end if;
+      end loop;
+      if write_i = '1' then
+        hits(row_of(write_address)) <= row_v;
       end if;
-      if clearing = '1' or write_i = '1' then
-        hits(to_integer(address_v)) <= row_v;
-      end if;
-      best_hit <= best_hit(0) & bit_of(hits(row_of(best_address)), best_address);
-      host_hit <= host_hit(0) & bit_of(hits(row_of(host_ray_i)), host_ray_i);
+      for k in hit_rows'range loop
+        if clear_i = '1' and unsigned(clear_bank_i) = k / MAX_ROWS then
+          hit_rows(k) <= '0';
+        elsif write_i = '1' and row_of(write_address) = k then
+          hit_rows(k) <= '1';
+        end if;
+      end loop;
+      best_hit <= best_hit(0) & bit_of(hits_of(hits, hit_rows, best_address), best_address);
+      host_hit <= host_hit(0) & bit_of(hits_of(hits, hit_rows, host_ray_i), host_ray_i);
     end if;
   end process hits_p;
 
-  clearing_o  <= clearing;
   best_o      <= best_hit(1) & best_data;
   host_data_o <= host_hit(1) & host_data;
+  hit_rows_o  <= hit_rows;
 
 end architecture rtl;

@@ -33,16 +33,17 @@ entity pair_half is
     data_i           : in  std_ulogic_vector(TRIANGLE_BITS - 1 downto 0);
     result_ray_i     : in  std_ulogic_vector(BANK_BITS + 2 * LINE_BITS - 1 downto 0);
     result_o         : out result_word_t;                           -- MEMORY_STAGES later
+    hit_rows_o       : out std_ulogic_vector(PENCIL_BANKS * MAX_ROWS - 1 downto 0);
     -- registers of all banks, bank k in the k-th place from the low end
-    origins_i        : in  std_ulogic_vector(PENCIL_BANKS * 3 * FP_BITS - 1 downto 0);
+    pencils_i        : in  std_ulogic_vector(PENCIL_BANKS * PENCIL_BITS - 1 downto 0);
     limits_i         : in  std_ulogic_vector(PENCIL_BANKS * LIMITS_BITS - 1 downto 0);
+    -- a pencil that is to be walked later: bounds and hit bits of its rays
+    clear_i          : in  std_ulogic;
+    clear_bank_i     : in  std_ulogic_vector(BANK_BITS - 1 downto 0);
+    clear_rows_i     : in  std_ulogic_vector(LINE_BITS downto 0);
+    clear_far_i      : in  std_ulogic_vector(DEPTH_BITS - 1 downto 0);
     -- the pencil whose turn it is to be walked
     walk_bank_i      : in  std_ulogic_vector(BANK_BITS - 1 downto 0);
-    rows_i           : in  std_ulogic_vector(LINE_BITS downto 0);
-    columns_i        : in  std_ulogic_vector(LINE_BITS downto 0);
-    far_i            : in  std_ulogic_vector(DEPTH_BITS - 1 downto 0);
-    clear_i          : in  std_ulogic;                              -- its bounds and hit bits
-    clearing_o       : out std_ulogic;
     row_bounds_o     : out std_ulogic_vector(MAX_ROWS * DEPTH_BITS - 1 downto 0);   -- of its rays
     -- triangles of that pencil, and its end
     valid_i          : in  std_ulogic;
@@ -79,6 +80,7 @@ architecture rtl of pair_half is
   signal word_out              : queued_triangle_word_t;
   signal front_bank            : bank_t;
   signal front_bounds, bounds  : line_bounds_t;
+  signal row_hit               : std_ulogic;
   signal front_limits          : limits_t;
   signal cut_write, cut_valid, cut_ready : std_ulogic;
   signal cut_in, cut_out       : cut_triangle_word_t;
@@ -101,6 +103,7 @@ architecture rtl of pair_half is
   signal ray_word              : ray_word_t;
   signal triangle_word         : triangle_word_t;
   signal bank_s2, bank_s28     : bank_t;
+  signal pencil                : pencil_t;
   signal origin                : std_ulogic_vector(VECTOR_BITS - 1 downto 0);
   signal limits                : limits_t;
   -- @28
@@ -115,7 +118,9 @@ architecture rtl of pair_half is
   signal best, stored_result   : result_word_t;
   signal stored, first_hit     : std_ulogic;
   signal stored_bound          : depth_t;
-  signal clearing_hits, clearing_bounds : std_ulogic;
+  signal hit_rows              : std_ulogic_vector(PENCIL_BANKS * MAX_ROWS - 1 downto 0);
+  signal stored_pencil         : pencil_t;
+  signal stored_limits         : limits_t;
 
 begin
 
@@ -176,6 +181,7 @@ begin
       bank_o      => read_bank,
       row_o       => read_row,
       bounds_i    => bounds,
+      row_hit_i   => row_hit,
       row_valid_o => row_write,
       row_word_o  => row_in,
       row_count_i => row_count
@@ -216,19 +222,21 @@ begin
       clk_i             => clk_i,
       rst_i             => rst_i,
       clear_i           => clear_i,
-      clear_bank_i      => walk_bank_i,
-      clear_rows_i      => rows_i,
-      clear_columns_i   => columns_i,
-      clear_far_i       => far_i,
-      clearing_o        => clearing_bounds,
+      clear_bank_i      => clear_bank_i,
+      clear_rows_i      => clear_rows_i,
+      clear_far_i       => clear_far_i,
+      hit_rows_i        => hit_rows,
       update_i          => stored,
       update_bank_i     => stored_bank,
+      update_columns_i  => stored_pencil.columns,
+      update_far_i      => stored_limits.far,
       update_ray_i      => stored_ray,
       update_bound_i    => stored_bound,
       read_i            => read,
       read_bank_i       => read_bank,
       read_row_i        => read_row,
       bounds_o          => bounds,
+      row_hit_o         => row_hit,
       walk_bank_i       => walk_bank_i,
       row_bounds_o      => row_bounds_o,
       pair_bank_i       => front_bank,
@@ -258,15 +266,14 @@ begin
     generic map (WIDTH => PAIR_BITS, STAGES => SOLVER_STAGES)
     port map (clk_i => clk_i, rst_i => '0', data_i => pair_s2, data_o => pair_s28);
 
-  ray_memory_i : entity raplas.ram
-    generic map (WIDTH => RAY_BITS, ADDRESS_BITS => BANK_BITS + 2 * LINE_BITS)
+  ray_memory_i : entity raplas.ray_memory
     port map (
-      clk_i           => clk_i,
-      write_i         => write_ray_i,
-      write_address_i => address_i(BANK_BITS + 2 * LINE_BITS - 1 downto 0),
-      write_data_i    => data_i(RAY_BITS - 1 downto 0),
-      read_address_i  => ray_address,
-      read_data_o     => ray_word
+      clk_i          => clk_i,
+      write_i        => write_ray_i,
+      write_group_i  => address_i(BANK_BITS + 2 * LINE_BITS - WORD_RAYS_LOG2 - 1 downto 0),
+      write_data_i   => data_i(2 ** WORD_RAYS_LOG2 * RAY_BITS - 1 downto 0),
+      read_address_i => ray_address,
+      read_data_o    => ray_word
     );
 
   triangle_memory_i : entity raplas.ram
@@ -283,23 +290,30 @@ begin
   bank_s2  <= pair_s2(PAIR_BITS - 1 downto PAIR_BITS - BANK_BITS);
   bank_s28 <= pair_s28(PAIR_BITS - 1 downto PAIR_BITS - BANK_BITS);
 
-  registers_p : process (origins_i, limits_i, front_bank, bank_s2, bank_s28)
+  registers_p : process (pencils_i, limits_i, front_bank, bank_s2, bank_s28, stored_bank)
+    variable pencil_v : pencil_t;
+    variable limits_v : limits_t;
   begin
-    origin <= origins_i(VECTOR_BITS - 1 downto 0);
-    limits <= unpack_limits(limits_i(LIMITS_BITS - 1 downto 0));
-    front_limits <= unpack_limits(limits_i(LIMITS_BITS - 1 downto 0));
-    for k in 1 to PENCIL_BANKS - 1 loop
-      if unsigned(bank_s2) = k then
-        origin <= origins_i((k + 1) * VECTOR_BITS - 1 downto k * VECTOR_BITS);
+    for k in 0 to PENCIL_BANKS - 1 loop
+      pencil_v := unpack_pencil(pencils_i((k + 1) * PENCIL_BITS - 1 downto k * PENCIL_BITS));
+      limits_v := unpack_limits(limits_i((k + 1) * LIMITS_BITS - 1 downto k * LIMITS_BITS));
+      if k = 0 or unsigned(front_bank) = k then
+        front_limits <= limits_v;
       end if;
-      if unsigned(bank_s28) = k then
-        limits <= unpack_limits(limits_i((k + 1) * LIMITS_BITS - 1 downto k * LIMITS_BITS));
+      if k = 0 or unsigned(bank_s2) = k then
+        pencil <= pencil_v;
       end if;
-      if unsigned(front_bank) = k then
-        front_limits <= unpack_limits(limits_i((k + 1) * LIMITS_BITS - 1 downto k * LIMITS_BITS));
+      if k = 0 or unsigned(bank_s28) = k then
+        limits <= limits_v;
+      end if;
+      if k = 0 or unsigned(stored_bank) = k then
+        stored_pencil <= pencil_v;
+        stored_limits <= limits_v;
       end if;
     end loop;
   end process registers_p;
+
+  origin <= pencil.ox & pencil.oy & pencil.oz;
 
   solver_i : entity raplas.ray_solver
     generic map (GUARD_BITS => GUARD_BITS, EXPONENT_DSP => false)
@@ -373,10 +387,8 @@ begin
   result_memory_i : entity raplas.result_memory
     port map (
       clk_i        => clk_i,
-      rst_i        => rst_i,
       clear_i      => clear_i,
-      clear_bank_i => walk_bank_i,
-      clearing_o   => clearing_hits,
+      clear_bank_i => clear_bank_i,
       write_i      => stored,
       write_bank_i => stored_bank,
       write_ray_i  => stored_ray,
@@ -385,10 +397,11 @@ begin
       best_ray_i   => best_ray,
       best_o       => best,
       host_ray_i   => result_ray_i,
-      host_data_o  => result_o
+      host_data_o  => result_o,
+      hit_rows_o   => hit_rows
     );
 
-  clearing_o      <= clearing_hits or clearing_bounds;
+  hit_rows_o      <= hit_rows;
   issue_o         <= issue;
   ray_o           <= ray;
   pair_triangle_o <= triangle;

@@ -8,7 +8,8 @@
 -- Lowest row first, one a clock. The word stays at the front of its queue until its
 -- last row goes, and a word without a row costs a clock. The end of a pencil passes
 -- in order. A row goes only if the row queue has room for it behind all that can be
--- under way.
+-- under way. Its words have columns of the pencil only, and rows whose bound is
+-- beyond z: so a row whose rays have no bounds yet keeps all its columns.
 -- model: cmodel/include/raplas/pair_selection.hpp     tests: tb/unit/row_selector
 -- ============================================================================
 library ieee;
@@ -28,7 +29,8 @@ entity row_selector is
     read_o      : out std_ulogic;            -- a row is asked for ...
     bank_o      : out bank_t;
     row_o       : out line_t;
-    bounds_i    : in  line_bounds_t;         -- ... its rays' bounds, MEMORY_STAGES later
+    bounds_i    : in  line_bounds_t;         -- ... its rays' bounds, MEMORY_STAGES later,
+    row_hit_i   : in  std_ulogic;            -- if they have any; else all are far enough
     row_valid_o : out std_ulogic;            -- into the queue of rows
     row_word_o  : out queued_row_word_t;
     row_count_i : in  std_ulogic_vector(ROW_FIFO_DEPTH_LOG2 downto 0)   -- words in it
@@ -77,7 +79,8 @@ begin
       columns_o => interval
     );
 
-  comb_p : process (r, valid_i, front, rows, row, interval, bounds_i, row_count_i)
+  comb_p : process (r, valid_i, front, rows, row, interval, bounds_i, row_hit_i,
+                    row_count_i)
     variable v         : reg_t;
     variable rest_v    : line_mask_t;
     variable columns_v : line_mask_t;
@@ -112,8 +115,10 @@ begin
     for k in 2 to ROW_STAGES loop
       v.s(k) := r.s(k - 1);
     end loop;
-    columns_v := r.s(ROW_INTERVAL_STAGES).row.columns and interval
-                 and lines_beyond(r.s(ROW_INTERVAL_STAGES).row.z, bounds_i);
+    columns_v := r.s(ROW_INTERVAL_STAGES).row.columns and interval;
+    if row_hit_i = '1' then
+      columns_v := columns_v and lines_beyond(r.s(ROW_INTERVAL_STAGES).row.z, bounds_i);
+    end if;
     v.s(ROW_STAGES).row.columns := columns_v;
     if columns_v = NO_LINES and r.s(ROW_INTERVAL_STAGES).row.last = '0' then
       v.s(ROW_STAGES).valid := '0';

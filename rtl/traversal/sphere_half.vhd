@@ -29,7 +29,8 @@ entity sphere_half is
     write_vertex_i : in  std_ulogic;
     write_plane_i  : in  std_ulogic;
     address_i      : in  std_ulogic_vector(ID_BITS - 1 downto 0);
-    data_i         : in  std_ulogic_vector(NODE_BITS - 1 downto 0);   -- the widest of the three
+    data_i         : in  std_ulogic_vector(2 * FIXED_PLANE_BITS - 1 downto 0);
+                      -- the widest of the three: two planes
     -- the pencil whose turn it is
     bank_i         : in  std_ulogic_vector(BANK_BITS - 1 downto 0);
     rows_i         : in  std_ulogic_vector(LINE_BITS downto 0);
@@ -38,8 +39,10 @@ entity sphere_half is
     scale_i        : in  std_ulogic_vector(GRID_EXPONENT_BITS - 1 downto 0);
     least_i        : in  std_ulogic_vector(GRID_EXPONENT_BITS - 1 downto 0);
     load_i         : in  std_ulogic;                                  -- planes of line_i, please
+    load_bank_i    : in  std_ulogic_vector(BANK_BITS - 1 downto 0);   -- of this bank
     line_i         : in  std_ulogic_vector(PLANE_INDEX_BITS - 1 downto 0);
     walk_i         : in  std_ulogic;                                  -- the walk begins
+    spent_o        : out std_ulogic;                                  -- no object goes any more
     idle_o         : out std_ulogic;                                  -- it is over
     root_first_i   : in  std_ulogic_vector(ID_BITS - 1 downto 0);
     root_count_i   : in  std_ulogic_vector(COUNT_BITS - 1 downto 0);
@@ -69,7 +72,7 @@ architecture rtl of sphere_half is
   constant TAG_BITS      : positive := STEP_BITS + CHILDREN_BITS;
   constant PLACE_BITS    : positive := 3 + ID_BITS;                            -- slot emit triangle
   constant POINT_BITS    : positive := 3 * COORDINATE_BITS;
-  constant PLANE_ADDRESS_BITS : positive := BANK_BITS + PLANE_INDEX_BITS;      -- of a side
+  constant PLANE_ADDRESS_BITS : positive := BANK_BITS + PLANE_INDEX_BITS;
   constant GRID_STAGES   : positive := VERTEX_GRID_STAGES - 1;   -- from a triangle to its points
   constant RESERVE       : positive := GRID_STAGES + 2;   -- triangles between the walk's count
                                                           -- and the queue's
@@ -93,9 +96,7 @@ architecture rtl of sphere_half is
   signal tag_s2, tag_s10 : std_ulogic_vector(TAG_BITS - 1 downto 0);
   -- planes
   signal plane_address   : std_ulogic_vector(PLANE_ADDRESS_BITS - 1 downto 0);
-  signal host_address    : std_ulogic_vector(PLANE_ADDRESS_BITS - 1 downto 0);
-  signal write_row, write_column : std_ulogic;
-  signal row_plane, column_plane : fixed_plane_word_t;
+  signal planes          : std_ulogic_vector(2 * FIXED_PLANE_BITS - 1 downto 0);   -- column row
   signal load_s0, load_s2 : std_ulogic_vector(PLANE_INDEX_BITS downto 0);
   -- @10
   signal rows_meet, rows_above, columns_meet, columns_above : mask_t;
@@ -160,6 +161,7 @@ begin
       columns_o      => columns,
       last_o         => last,
       stack_level_o  => stack_level_o,
+      spent_o        => spent_o,
       idle_o         => idle_o
     );
 
@@ -180,7 +182,7 @@ begin
       clk_i           => clk_i,
       write_i         => write_node_i,
       write_address_i => address_i(SPHERE_ADDRESS_BITS - 1 downto 0),
-      write_data_i    => data_i,
+      write_data_i    => data_i(NODE_BITS - 1 downto 0),
       read_address_i  => address(SPHERE_ADDRESS_BITS - 1 downto 0),
       read_data_o     => node_word
     );
@@ -220,34 +222,19 @@ begin
     generic map (WIDTH => TAG_BITS, STAGES => TEST_STAGES)
     port map (clk_i => clk_i, rst_i => '0', data_i => tag_s2, data_o => tag_s10);
 
-  -- planes: from their memories, one for each side, into the testers' own registers
-  plane_address <= bank_i & line_i;
+  -- planes: from their memory, one for each side, into the testers' own registers
+  plane_address <= load_bank_i & line_i;
   load_s0       <= load_i & line_i;
-  host_address  <= address_i(PLANE_ADDRESS_BITS downto PLANE_INDEX_BITS + 1)
-                   & address_i(PLANE_INDEX_BITS - 1 downto 0);
-  write_row     <= write_plane_i and not address_i(PLANE_INDEX_BITS);
-  write_column  <= write_plane_i and address_i(PLANE_INDEX_BITS);
 
-  row_plane_memory_i : entity raplas.ram
-    generic map (WIDTH => FIXED_PLANE_BITS, ADDRESS_BITS => PLANE_ADDRESS_BITS)
+  plane_memory_i : entity raplas.ram
+    generic map (WIDTH => 2 * FIXED_PLANE_BITS, ADDRESS_BITS => PLANE_ADDRESS_BITS)
     port map (
       clk_i           => clk_i,
-      write_i         => write_row,
-      write_address_i => host_address,
-      write_data_i    => data_i(FIXED_PLANE_BITS - 1 downto 0),
+      write_i         => write_plane_i,
+      write_address_i => address_i(PLANE_ADDRESS_BITS - 1 downto 0),
+      write_data_i    => data_i,
       read_address_i  => plane_address,
-      read_data_o     => row_plane
-    );
-
-  column_plane_memory_i : entity raplas.ram
-    generic map (WIDTH => FIXED_PLANE_BITS, ADDRESS_BITS => PLANE_ADDRESS_BITS)
-    port map (
-      clk_i           => clk_i,
-      write_i         => write_column,
-      write_address_i => host_address,
-      write_data_i    => data_i(FIXED_PLANE_BITS - 1 downto 0),
-      read_address_i  => plane_address,
-      read_data_o     => column_plane
+      read_data_o     => planes
     );
 
   load_delay : entity raplas.delay
@@ -258,8 +245,8 @@ begin
     port map (
       clk_i            => clk_i,
       load_i           => load_s2(PLANE_INDEX_BITS),
-      row_plane_i      => row_plane,
-      column_plane_i   => column_plane,
+      row_plane_i      => planes(FIXED_PLANE_BITS - 1 downto 0),
+      column_plane_i   => planes(2 * FIXED_PLANE_BITS - 1 downto FIXED_PLANE_BITS),
       index_i          => load_s2(PLANE_INDEX_BITS - 1 downto 0),
       object_i         => object,
       slack_i          => slack_i,

@@ -42,7 +42,8 @@ entity tree_walk is
     columns_o      : out std_ulogic_vector(MAX_COLUMNS - 1 downto 0);
     last_o         : out std_ulogic;   -- it is the last of its range
     stack_level_o  : out std_ulogic_vector(STACK_DEPTH_LOG2 downto 0);  -- stacked ranges
-    idle_o         : out std_ulogic    -- nothing left, nothing under test
+    spent_o        : out std_ulogic;   -- no object goes to the testers any more
+    idle_o         : out std_ulogic    -- and none is under test
   );
 end entity tree_walk;
 
@@ -68,6 +69,7 @@ architecture rtl of tree_walk is
     columns    : std_ulogic_vector(MAX_COLUMNS - 1 downto 0);
     level      : unsigned(STACK_DEPTH_LOG2 downto 0);  -- stacked ranges
     under_test : unsigned(TRIANGLE_FIFO_DEPTH_LOG2 downto 0);  -- requested and not decided
+    vertices   : unsigned(3 downto 0);  -- requested behind the last sphere; 15: or more
     siblings   : unsigned(1 downto 0);  -- entries among which the next one pushed is sorted
   end record;
 
@@ -134,6 +136,12 @@ begin
       v.under_test := r.under_test + 1;
     elsif request_v = '0' and decided_i = '1' then
       v.under_test := r.under_test - 1;
+    end if;
+
+    if request_v = '1' and r.leaf = '0' then
+      v.vertices := (others => '0');
+    elsif request_v = '1' and r.vertices /= 15 then
+      v.vertices := r.vertices + 1;
     end if;
 
     -- the next range
@@ -222,6 +230,7 @@ begin
         r.level      <= (others => '0');
         r.under_test <= (others => '0');
         r.siblings   <= (others => '0');
+        r.vertices   <= (others => '0');
       end if;
     end if;
   end process reg_p;
@@ -244,6 +253,8 @@ begin
   columns_o     <= r.columns;
   last_o        <= '1' when r.left = 1 else '0';
   stack_level_o <= std_ulogic_vector(r.level);
+  -- spheres bring ranges: none is under test if all that are there came behind the last one
+  spent_o       <= '1' when r.active = '0' and r.level = 0 and r.under_test <= r.vertices else '0';
   idle_o        <= '1' when r.active = '0' and r.level = 0 and r.under_test = 0 else '0';
 
 end architecture rtl;

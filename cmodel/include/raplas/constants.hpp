@@ -104,6 +104,8 @@ inline constexpr int kQuotientError = 4;
 inline constexpr int kPencilBanks = 4;
 /// PENCIL_BANKS = 2^2
 inline constexpr int kBankBits = 2;
+/// 2^2 rays of a row are one word of the host's write port
+inline constexpr int kWordRaysLog2 = 2;
 /// index of the near plane on the row side, of the depth plane on the column side
 inline constexpr int kAxisPlane = 16;
 /// index of the down plane on the row side, of the across plane on the column side
@@ -167,7 +169,7 @@ struct PlaneLayout {
   static constexpr Field p{0, 24};
 };
 
-/// unit direction; address = bank * 256 + ray ID
+/// unit direction; address = bank * 256 + ray ID, four in a word in profile raplas: that / 4
 struct RayLayout {
   static constexpr int kBits = 72;
   static constexpr Field dx{48, 24};
@@ -227,7 +229,7 @@ struct VertexLayout {
   static constexpr Field triangle{0, 21};
 };
 
-/// n.x + p = 0, |n| <= 1; address = bank * 64 + side * 32 + index
+/// n.x + p = 0, |n| <= 1; two in a word, the row side low; address = bank * 32 + index
 struct FixedPlaneLayout {
   static constexpr int kBits = 90;
   static constexpr Field nx{72, 18};

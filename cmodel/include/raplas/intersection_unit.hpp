@@ -192,10 +192,8 @@ class IntersectionUnit {
     } else if (was_idle) {
       busy_ = false;
     }
-    clearing_ -= clearing_ > 0 ? 1 : 0;
     if (starting) {
       results_[bank_].fill({});
-      clearing_ = kMaxRows;
     }
   }
 
@@ -219,8 +217,8 @@ class IntersectionUnit {
   };
 
   [[nodiscard]] bool idle() const noexcept {
-    return traversal_.idle() && !starting_ && clearing_ == 0 && !leaves_.valid() && !selector_.valid() &&
-           !pairs_.valid() && in_pipe_ == 0;
+    return traversal_.idle() && !starting_ && !leaves_.valid() && !selector_.valid() && !pairs_.valid() &&
+           in_pipe_ == 0;
   }
 
   [[nodiscard]] int last_set() const noexcept {
@@ -280,7 +278,6 @@ class IntersectionUnit {
   std::size_t bank_ = 0;
   bool busy_ = false;
   bool starting_ = false;
-  int clearing_ = 0;  ///< clocks until the hit bits are clear
   int in_pipe_ = 0;
   Traversal traversal_;
   Delay<Flagged, kMemoryStages + kTesterStages> testers_line_;

@@ -98,8 +98,7 @@ class RayBounds {
     std::size_t row = 0;
   };
 
-  [[nodiscard]] bool clearing() const noexcept { return clearing_; }
-  /// Of the row asked for kMemoryStages clocks ago.
+  /// Of the row asked for kMemoryStages clocks ago. The RTL says of a row without an update only that.
   [[nodiscard]] const LineBounds& bounds() const noexcept { return read_.out(); }
   [[nodiscard]] const LineBounds& row_bounds(std::size_t bank) const noexcept { return row_bounds_[bank]; }
 
@@ -112,20 +111,14 @@ class RayBounds {
     read_.clock(row);
     if (update.valid) {
       rows_[update.bank][update.ray / kMaxColumns][update.ray % kMaxColumns] = update.bound;
-    } else if (clearing_) {
-      LineBounds& cleared = rows_[clear_.bank][clear_row_];
-      for (std::size_t k = 0; k < cleared.size(); ++k) {
-        cleared[k] = clear_row_ < clear_.rows && k < clear_.columns ? clear_.far : 0;
-      }
-      ++clear_row_;
-      clearing_ = clear_row_ != kMaxRows;
     }
     if (clear.valid) {
-      clear_ = clear;
-      clear_row_ = 0;
-      clearing_ = true;
       for (std::size_t k = 0; k < kMaxRows; ++k) {
-        row_bounds_[clear.bank][k] = k < clear.rows ? clear.far : 0;
+        const std::uint32_t bound = k < clear.rows ? clear.far : 0;
+        row_bounds_[clear.bank][k] = bound;
+        for (std::size_t column = 0; column < kMaxColumns; ++column) {
+          rows_[clear.bank][k][column] = column < clear.columns ? bound : 0;
+        }
       }
     }
   }
@@ -141,9 +134,6 @@ class RayBounds {
   std::array<LineBounds, kPencilBanks> row_bounds_{};
   Delay<LineBounds, kMemoryStages> read_;
   Delay<Maximum, kMaximumStages> maximum_;
-  bool clearing_ = false;
-  Clear clear_;
-  std::size_t clear_row_ = 0;
 };
 
 /// Word of the queue of triangles: one that the pencil meets, or the pencil's end.

@@ -41,6 +41,8 @@ class RaplasUnit {
   [[nodiscard]] const typename FixedTrace<F>::Results& results(std::size_t bank) const noexcept {
     return results_[bank];
   }
+  /// Rows of which a ray has a hit.
+  [[nodiscard]] LineMask hit_rows(std::size_t bank) const noexcept { return hit_rows_[bank]; }
   /// A bit for each bank that was started and isn't done.
   [[nodiscard]] std::uint32_t busy() const noexcept { return control_.busy(); }
   /// Since reset.
@@ -71,17 +73,21 @@ class RaplasUnit {
   void clock(bool start, std::size_t bank) {
     const RaplasEdges<F> e = edges();
     const std::size_t turn = control_.bank();
+    const std::size_t cleared = control_.clear_bank();
     const FixedPencilMemory<F>& pencil = pencils_[turn];
-    const bool clearing = clear_hits_ != 0 || bounds_.clearing();
-    const PencilControl::Out control = control_.out(clearing);
+    const PencilControl::Out control = control_.out();
     count(e, control.walk);
 
     // results
     const ResultWord<F> best = bests_.out();
     bests_.clock(results_[hits_.asks().bank][hits_.asks().ray]);
-    clear_hits_of(control.clear, turn, e.stored.write);
+    if (control.clear) {
+      results_[cleared].fill({});
+      hit_rows_[cleared] = 0;
+    }
     if (e.stored.write) {
       results_[e.stored.bank][e.stored.ray] = e.stored.result;
+      hit_rows_[e.stored.bank] |= LineMask{1} << (e.stored.ray / kMaxColumns);
     }
     const Solved solved = solver_.out();
     hits_.clock(solved.hit || solved.word.token, solved.word, best);
@@ -108,6 +114,7 @@ class RaplasUnit {
     // spheres
     const Tested tested = testers_.out();
     const bool walk_idle = walk_.idle();
+    const bool walk_spent = walk_.spent();
     const bool vertex = tested.request.valid && tested.request.vertex;
     const CrossingTriangle& crossing = lines_.out();
     found_.clock({crossing.valid || token,
@@ -128,11 +135,13 @@ class RaplasUnit {
                  first_lines(pencil.pencil.columns), 0},
                 e.request, bounds_.row_bounds(turn), decision(tested));
     testers_.clock(e.request.valid ? test(e.request, pencil) : Tested{});
-    bounds_.clock({control.clear, turn, pencil.pencil.rows, pencil.pencil.columns, pencil.limits.far},
-                  {e.stored.write, e.stored.bank, e.stored.ray, e.stored.bound}, read);
+    const FixedPencilMemory<F>& prepared = pencils_[cleared];
+    bounds_.clock(
+        {control.clear, cleared, prepared.pencil.rows, prepared.pencil.columns, prepared.limits.far},
+        {e.stored.write, e.stored.bank, e.stored.ray, e.stored.bound}, read);
 
-    control_.clock(start, bank, pencil.pencil.rows, pencil.pencil.columns, clearing, walk_idle, token_ready,
-                   e.stored.done, e.stored.bank);
+    control_.clock(start, bank, prepared.pencil.rows, prepared.pencil.columns, walk_spent, walk_idle,
+                   token_ready, e.stored.done, e.stored.bank);
   }
 
  private:
@@ -200,20 +209,6 @@ class RaplasUnit {
     return {hit, {false, row.bank, ray, {true, row.triangle, s.t, s.d, s.u, s.v}, bound}};
   }
 
-  /// A row of hit bits a clock, unless a result is written.
-  void clear_hits_of(bool clear, std::size_t bank, bool write) noexcept {
-    if (clear_hits_ != 0 && !write) {
-      const auto row = static_cast<std::size_t>(kMaxRows - clear_hits_) * kMaxColumns;
-      std::fill_n(results_[clear_bank_].begin() + static_cast<std::ptrdiff_t>(row), kMaxColumns,
-                  ResultWord<F>{});
-      --clear_hits_;
-    }
-    if (clear) {
-      clear_hits_ = kMaxRows;
-      clear_bank_ = bank;
-    }
-  }
-
   void count(const RaplasEdges<F>& e, bool walk) noexcept {
     const auto add = [this](Counter c, std::uint32_t n) { counters_[static_cast<std::size_t>(c)] += n; };
     add(Counter::spheres_skipped, walk ? scene_->scene.spheres : 0);
@@ -232,6 +227,7 @@ class RaplasUnit {
   const FixedSceneMemory<F>* scene_ = nullptr;
   std::array<FixedPencilMemory<F>, kPencilBanks> pencils_{};
   std::array<typename FixedTrace<F>::Results, kPencilBanks> results_{};
+  std::array<LineMask, kPencilBanks> hit_rows_{};
   EventCounters counters_{};
   PencilControl control_;
   TreeWalk walk_;
@@ -249,8 +245,6 @@ class RaplasUnit {
   Delay<Solved, kPairStages> solver_;
   HitQueue<F> hits_;
   Delay<ResultWord<F>, kMemoryStages> bests_;
-  int clear_hits_ = 0;  ///< rows of hit bits that are not clear yet
-  std::size_t clear_bank_ = 0;
 };
 
 }  // namespace raplas

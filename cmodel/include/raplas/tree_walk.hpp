@@ -74,6 +74,10 @@ class TreeWalk {
             range_.count == 1};
   }
   [[nodiscard]] bool idle() const noexcept { return !active_ && stack_.empty() && under_test_ == 0; }
+  /// No object goes to the testers any more.
+  [[nodiscard]] bool spent() const noexcept {
+    return !active_ && stack_.empty() && under_test_ <= vertices_behind_;
+  }
   [[nodiscard]] int level() const noexcept { return static_cast<int>(stack_.size()); }
   [[nodiscard]] int under_test() const noexcept { return under_test_; }
   /// The range that the next clock compares with the row bounds; only if level() != 0.
@@ -91,6 +95,9 @@ class TreeWalk {
     }
     const bool free = !active_;
     under_test_ += (request.valid ? 1 : 0) - (decision.decided ? 1 : 0);
+    if (request.valid) {
+      vertices_behind_ = request.vertex ? std::min(vertices_behind_ + 1, kMostBehind) : 0;
+    }
 
     if (start) {
       range_ = root;
@@ -122,11 +129,14 @@ class TreeWalk {
   }
 
  private:
+  static constexpr int kMostBehind = 15;
+
   bool active_ = false;
   WalkRange range_{};             ///< what is left of the current range
   std::vector<WalkRange> stack_;  ///< back() is the top
   int siblings_ = 0;              ///< entries among which the next one is sorted
   int under_test_ = 0;
+  int vertices_behind_ = 0;  ///< behind the last sphere
 };
 
 }  // namespace raplas

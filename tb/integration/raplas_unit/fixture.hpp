@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "random_fixed_scenes.hpp"
+#include "raplas/host_port.hpp"
 #include "raplas/raplas_unit.hpp"
 #include "support/scoreboard.hpp"
 
@@ -17,43 +18,6 @@ namespace raplas {
 
 using F = Fp24;
 const bool kSlow = Dut::simulator() == "ghdl";
-
-using Data = std::array<std::uint32_t, TriangleLayout::kBits / 32>;
-
-/// A word for the host's write port.
-struct Write {
-  Target target;
-  std::size_t address;
-  Data data;
-};
-
-template <std::size_t kWords>
-[[nodiscard]] Write write_of(Target target, std::size_t address,
-                             const std::array<std::uint32_t, kWords>& word) {
-  Write write{target, address, {}};
-  std::copy(word.begin(), word.end(), write.data.begin());
-  return write;
-}
-
-[[nodiscard]] inline std::vector<Write> writes_of(const FixedPencilMemory<F>& pencil, std::size_t bank) {
-  std::vector<Write> writes{write_of(Target::pencil, bank, pencil.pencil.pack()),
-                            write_of(Target::limits, bank, pencil.limits.pack()),
-                            write_of(Target::plane, bank * 64 + 16, pencil.planes.near.pack()),
-                            write_of(Target::plane, bank * 64 + 17, pencil.planes.down.pack()),
-                            write_of(Target::plane, bank * 64 + 48, pencil.planes.depth.pack()),
-                            write_of(Target::plane, bank * 64 + 49, pencil.planes.across.pack())};
-  for (std::size_t r = 0; r < pencil.pencil.rows; ++r) {
-    writes.push_back(write_of(Target::plane, bank * 64 + r, pencil.planes.rows[r].pack()));
-    for (std::size_t c = 0; c < pencil.pencil.columns; ++c) {
-      const std::size_t ray = r * kMaxColumns + c;
-      writes.push_back(write_of(Target::ray, bank * 256 + ray, pack_ray(pencil.rays[ray])));
-    }
-  }
-  for (std::size_t c = 0; c < pencil.pencil.columns; ++c) {
-    writes.push_back(write_of(Target::plane, bank * 64 + 32 + c, pencil.planes.columns[c].pack()));
-  }
-  return writes;
-}
 
 class RaplasUnitBench : public testing::Test {
  protected:
@@ -71,16 +35,16 @@ class RaplasUnitBench : public testing::Test {
         return k < words.size() ? words[k] : typename std::decay_t<decltype(words)>::value_type{};
       };
       if (first != 0) {
-        write(write_of(target, 0, word(0).pack()));
+        write(host_word(target, 0, word(0).pack()));
       }
       for (std::size_t k = first; k < last; ++k) {
-        write(write_of(target, k % (1U << kIdBits), word(k).pack()));
+        write(host_word(target, k % (1U << kIdBits), word(k).pack()));
       }
     };
     put(Target::sphere, scene.nodes, from.nodes, scene.nodes.size() + 1);
     put(Target::vertex, scene.vertices, from.vertices, scene.vertices.size() + 1);
     put(Target::triangle, scene.triangles, from.triangles, scene.triangles.size());
-    write(write_of(Target::scene, 0, scene.scene.pack()));
+    write(host_word(Target::scene, 0, scene.scene.pack()));
     model_.load(&scene);
     scene_ = &scene;
   }
@@ -92,7 +56,8 @@ class RaplasUnitBench : public testing::Test {
     definition,  ///< those of FixedTrace without a skip; differences are counted
   };
 
-  /// Streams pencils through the unit, at most `most` of them loaded, running or read at a time.
+  /// Streams pencils through the unit, at most `most` of them loaded or running, or running or read, at a
+  /// time.
   void stream(const std::vector<FixedPencilMemory<F>>& pencils, std::size_t most = kPencilBanks,
               Oracle oracle = Oracle::walk) {
     constexpr std::uint64_t kMostClocks = 20'000;
@@ -102,12 +67,11 @@ class RaplasUnitBench : public testing::Test {
       std::size_t pencil;
       std::size_t ray;
     };
-    std::size_t loaded = 0;   // pencils whose words are all written
-    std::size_t loading = 0;  // pencils of which the first word is on its way
+    std::size_t loaded = 0;  // pencils whose words are all written
+    std::size_t word = 0;    // next one of the pencil after them
     std::size_t started = 0;
     std::size_t finished = 0;  // the unit is done with them
     std::size_t read = 0;
-    std::deque<Write> words;
     std::deque<Reading> reading;  // rays asked for, the youngest last
     std::size_t next_ray = 0;
     FixedTrace<F>::Results expected{};
@@ -115,24 +79,22 @@ class RaplasUnitBench : public testing::Test {
     while (read < pencils.size()) {
       ASSERT_LT(dut().cycles(), deadline) << "the unit hangs";
       // host: write
-      if (words.empty() && loading == loaded && loading < pencils.size() && loading - read < most) {
-        const auto list = writes_of(pencils[loading], loading % kPencilBanks);
-        words.assign(list.begin(), list.end());
-        ++loading;
-      }
-      if (words.empty()) {
-        write_nowhere();
-      } else {
-        apply(words.front());
-        words.pop_front();
-        if (words.empty()) {
-          model_.pencil((loading - 1) % kPencilBanks) = pencils[loading - 1];
+      if (loaded < pencils.size() && loaded - finished < most) {
+        const FixedPencilMemory<F>& pencil = pencils[loaded];
+        apply(pencil_word(pencil, loaded % kPencilBanks, word));
+        if (++word == pencil_words(pencil)) {
+          model_.pencil(loaded % kPencilBanks) = pencil;
           ++loaded;
+          word = 0;
         }
+      } else {
+        write_nowhere();
       }
       // host: read
       if (read < finished) {
         if (next_ray == 0) {
+          const std::uint64_t rows = dut().get(dut().port("hit_rows_o"));
+          ASSERT_EQ(rows >> (read % kPencilBanks * kMaxRows) & 0xffffU, model_.hit_rows(read % kPencilBanks));
           expected = oracle == Oracle::model  ? model_.results(read % kPencilBanks)
                      : oracle == Oracle::walk ? FixedTrace<F>(*scene_, pencils[read]).results()
                                               : FixedTrace<F>(*scene_, pencils[read], kNoSkips).results();
@@ -142,7 +104,7 @@ class RaplasUnitBench : public testing::Test {
         next_ray += step;
       }
       // host: start, sometimes a bank that is busy
-      const bool start = started < ready_;
+      const bool start = started < ready_ && started - read < most;
       const bool disturb = !start && started > finished && random_() % 4 == 0;
       const std::size_t bank = (disturb ? finished : started) % kPencilBanks;
       dut().set(dut().port("start_i"), start || disturb ? 1 : 0);
@@ -188,7 +150,7 @@ class RaplasUnitBench : public testing::Test {
 
   static constexpr Skips kNoSkips{false, false, false, false, false, false, false, false};
 
-  static void write(const Write& word) {
+  static void write(const HostWord& word) {
     apply(word);
     dut().clock();
     dut().set(dut().port("write_i"), 0);
@@ -198,7 +160,7 @@ class RaplasUnitBench : public testing::Test {
   std::uint64_t differences_ = 0;  ///< of Oracle::definition
 
  private:
-  static void apply(const Write& word) {
+  static void apply(const HostWord& word) {
     dut().set(dut().port("write_i"), 1);
     dut().set(dut().port("target_i"), static_cast<std::uint64_t>(word.target));
     dut().set(dut().port("address_i"), word.address);
@@ -207,7 +169,7 @@ class RaplasUnitBench : public testing::Test {
 
   /// What the write port must not take.
   void write_nowhere() {
-    Write word{static_cast<Target>(random_() % 8), random_() & kLastId, {}};
+    HostWord word{static_cast<Target>(random_() % 8), random_() & kLastId, {}};
     std::generate(word.data.begin(), word.data.end(),
                   [this] { return static_cast<std::uint32_t>(random_()); });
     apply(word);

@@ -105,8 +105,8 @@ TEST_F(RaplasUnitBench, StartsAfreshAfterAResetInTheMiddle) {
   for (const int clocks :
        kSlow ? std::vector<int>{60} : std::vector<int>{1, 5, 20, 30, 50, 70, 90, 120, 200}) {
     for (std::size_t bank = 0; bank < pencils.size(); ++bank) {
-      for (const Write& word : writes_of(pencils[bank], bank)) {
-        write(word);
+      for (std::size_t word = 0; word < pencil_words(pencils[bank]); ++word) {
+        write(pencil_word(pencils[bank], bank, word));
       }
       dut().set(dut().port("bank_i"), bank);
       dut().set(dut().port("start_i"), 1);

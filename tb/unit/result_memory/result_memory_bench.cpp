@@ -1,4 +1,5 @@
-// result_memory against arrays: all banks, clearing one while others are written, both read ports.
+// result_memory against arrays: all banks, clearing one while others are written, both read ports, and which
+// rows have a hit.
 #include <random>
 #include <vector>
 
@@ -9,26 +10,19 @@ namespace raplas {
 namespace {
 
 using Word = ResultWord<Fp24>;
-constexpr int kClears = 40;
 constexpr std::size_t kRays = std::size_t{kMaxRows} * kMaxColumns;
 constexpr std::size_t kBanks = kPencilBanks;
+const PortStage kStages[]{{"best_o", kMemoryStages}, {"host_data_o", kMemoryStages}, {"hit_rows_o", 1}};
 
 class ResultMemoryBench : public testing::Test {
  protected:
-  /// Clears bank after bank, with so many clocks after each, and writes into the others.
-  void run(unsigned write_percent, int clocks) {
-    reset_dut();
-    for (int clear = 0; clear < kClears && !HasFailure(); ++clear) {
-      const std::size_t bank =
-          clear < static_cast<int>(kBanks) ? static_cast<std::size_t>(clear) : random_() % kBanks;
-      clock(bank, false);
-      cleared_[bank] = true;
-      std::fill_n(memory_.begin() + static_cast<std::ptrdiff_t>(bank * kRays), kRays, Word{});
-      clearing_ = bank;
-      for (int rows = 0; rows < kMaxRows && !HasFailure();) {
-        rows += clock(kBanks, random_() % 100 < write_percent) ? 0 : 1;
-      }
-      clearing_ = kBanks;
+  /// Clears bank after bank, with so many clocks after each, and writes into all others meanwhile.
+  void run(unsigned write_percent, int clears, int clocks) {
+    for (std::size_t bank = 0; bank < kBanks; ++bank) {
+      clock(bank, random_() % 100 < write_percent);
+    }
+    for (int clear = 0; clear < clears && !HasFailure(); ++clear) {
+      clock(random_() % kBanks, random_() % 100 < write_percent);
       for (int k = 0; k < clocks && !HasFailure(); ++k) {
         clock(kBanks, random_() % 100 < write_percent);
       }
@@ -43,15 +37,14 @@ class ResultMemoryBench : public testing::Test {
     Word word;
   };
 
-  /// A clock in which `clear` (kBanks: none) begins to be cleared; true if something was written.
-  bool clock(std::size_t clear, bool write) {
+  /// A clock in which `clear` (kBanks: none) is cleared.
+  void clock(std::size_t clear, bool write) {
     const std::size_t written = random_() % memory_.size();
     const std::size_t bank = written / kRays;
-    write = write && cleared_[bank] && bank != clearing_;
+    write = write && cleared_[bank] && bank != clear;
     const auto number = [this] { return Fp24::from_bits(static_cast<std::uint32_t>(random_() & 0xffffff)); };
     const Word word{true,    static_cast<std::uint32_t>(random_() & kLastId), number(), number(), number(),
                     number()};
-    const auto place = [this] { return random_() % 4 == 0 ? last_ : random_() % memory_.size(); };
     const std::size_t best = place();
     const std::size_t host = place();
     const auto set = [](const char* name, std::uint64_t value) { dut().set(dut().port(name), value); };
@@ -60,18 +53,16 @@ class ResultMemoryBench : public testing::Test {
     set("write_i", write ? 1 : 0);
     set("write_bank_i", bank);
     set("write_ray_i", written % kRays);
-    dut().set(dut().port("write_data_i"), word.pack());
+    Word given = word;
+    given.hit = random_() % 2 == 0;  // counts as true
+    dut().set(dut().port("write_data_i"), given.pack());
     set("best_bank_i", best / kRays);
     set("best_ray_i", best % kRays);
     set("host_ray_i", host);
-    dut().settle();
-    expect_port(dut().port("clearing_o"), clearing_ < kBanks ? 1 : 0, "clearing_o");
-    // nobody reads what is written in this clock, nor a bank that is being cleared
+    // nobody reads what is written in this clock, nor a bank that is cleared in it
     const auto read = [&](std::size_t from) {
       const std::size_t from_bank = from / kRays;
-      return Read{
-          cleared_[from_bank] && from_bank != clearing_ && from_bank != clear && !(write && from == written),
-          memory_[from]};
+      return Read{cleared_[from_bank] && from_bank != clear && !(write && from == written), memory_[from]};
     };
     if (const auto due = board_.clock({read(best), read(host)})) {
       compare("best_o", due->at(0));
@@ -81,7 +72,26 @@ class ResultMemoryBench : public testing::Test {
       memory_[written] = word;
       last_ = written;
     }
-    return write;
+    if (clear < kBanks) {
+      cleared_[clear] = true;
+      std::fill_n(memory_.begin() + static_cast<std::ptrdiff_t>(clear * kRays), kRays, Word{});
+      emptied_ = clear;
+    }
+    compare_rows();
+  }
+
+  /// Often the ray written last, one of its row, or one of the bank cleared last.
+  std::size_t place() {
+    switch (random_() % 6) {
+      case 0:
+        return last_;
+      case 1:
+        return last_ - last_ % kMaxColumns + random_() % kMaxColumns;
+      case 2:
+        return emptied_ * kRays + random_() % kRays;
+      default:
+        return random_() % memory_.size();
+    }
   }
 
   static void compare(const char* name, const Read& expected) {
@@ -98,32 +108,34 @@ class ResultMemoryBench : public testing::Test {
     count_checked();
   }
 
+  void compare_rows() const {
+    std::uint64_t rows = 0;
+    std::uint64_t known = 0;
+    for (std::size_t ray = 0; ray < memory_.size(); ++ray) {
+      const std::size_t row = ray / kMaxColumns;
+      rows |= std::uint64_t{memory_[ray].hit ? 1U : 0U} << row;
+      known |= std::uint64_t{cleared_[ray / kRays] ? 1U : 0U} << row;
+    }
+    const PortId port = dut().port("hit_rows_o");
+    if (~known == 0) {
+      expect_port(port, rows, "hit_rows_o");
+    } else {
+      ASSERT_EQ(dut().get(port) & known, rows) << "hit_rows_o in clock " << dut().cycles();
+    }
+  }
+
   std::vector<Word> memory_ = std::vector<Word>(kBanks * kRays);
   std::array<bool, kBanks> cleared_{};
-  std::size_t clearing_ = kBanks;
-  std::size_t last_ = 0;  // written last
+  std::size_t last_ = 0;     // ray written last
+  std::size_t emptied_ = 0;  // bank cleared last
   Scoreboard<std::array<Read, 2>> board_{kMemoryStages};
 };
 
-TEST_F(ResultMemoryBench, KeepsTheLastWriteOfEachRayAndForgetsWhenCleared) { run(25, 1'500); }
-TEST_F(ResultMemoryBench, ClearsBetweenTheWritesOfOtherBanks) { run(90, 400); }
-TEST_F(ResultMemoryBench, ClearsARowEachClockWithoutWrites) { run(2, 700); }
-
-TEST_F(ResultMemoryBench, ForgetsThatItClearsWhenReset) {
-  reset_dut();
-  dut().set(dut().port("write_i"), 0);
-  dut().set(dut().port("clear_i"), 1);
-  dut().clock();
-  dut().set(dut().port("clear_i"), 0);
-  dut().clock();
-  expect_port(dut().port("clearing_o"), 1, "clearing_o");
-  dut().set(dut().port("rst_i"), 1);
-  dut().clock();
-  expect_port(dut().port("clearing_o"), 0, "clearing_o");
-  dut().set(dut().port("rst_i"), 0);
-  dut().clock();
-  expect_port(dut().port("clearing_o"), 0, "clearing_o");
-}
+TEST_F(ResultMemoryBench, KeepsTheLastWriteOfEachRayAndForgetsWhenCleared) { run(25, 20, 3'000); }
+TEST_F(ResultMemoryBench, ClearsWhileOtherBanksAreWritten) { run(95, 400, 150); }
+TEST_F(ResultMemoryBench, ClearsBanksThatAreHardlyWritten) { run(5, 1'000, 50); }
+TEST_F(ResultMemoryBench, ClearsABankInEachClock) { run(90, 30'000, 0); }
+TEST_F(ResultMemoryBench, HasNoHitAfterEachClearThoughARayWasWritten) { run(80, 6'000, 5); }
 
 }  // namespace
 }  // namespace raplas

@@ -56,6 +56,7 @@ class TreeWalkBench : public testing::Test {
     dut().settle();
     const WalkRequest request = model_.request(in.triangles);
     expect_port(request_o_, number(request.valid), "request_o");
+    expect_port(spent_o_, number(model_.spent()), "spent_o");
     expect_port(idle_o_, number(model_.idle()), "idle_o");
     expect_port(stack_level_o_, static_cast<std::uint64_t>(model_.level()), "stack_level_o");
     if (request.valid) {
@@ -65,6 +66,7 @@ class TreeWalkBench : public testing::Test {
       expect_port(columns_o_, request.columns, "columns_o");
       expect_port(last_o_, number(request.last), "last_o");
     }
+    spent_ = dut().get(spent_o_) != 0;
     highest_ = std::max(highest_, model_.level());
     dut().clock();
     model_.clock(in.start, in.root, request, in.bounds, in.decision);
@@ -73,6 +75,7 @@ class TreeWalkBench : public testing::Test {
 
   TreeWalk model_;
   int highest_ = 0;
+  bool spent_ = false;  ///< what the last clock showed
 
  private:
   PortId start_ = dut().port("start_i");
@@ -93,6 +96,7 @@ class TreeWalkBench : public testing::Test {
   PortId columns_o_ = dut().port("columns_o");
   PortId last_o_ = dut().port("last_o");
   PortId stack_level_o_ = dut().port("stack_level_o");
+  PortId spent_o_ = dut().port("spent_o");
   PortId idle_o_ = dut().port("idle_o");
 };
 

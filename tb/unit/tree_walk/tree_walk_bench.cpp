@@ -1,5 +1,5 @@
 // tree_walk on whole trees, by rules stated here: each object once unless its rows' bounds were reached,
-// stack and triangle queue within their bounds.
+// stack and triangle queue within their bounds; spent when nothing can be requested any more.
 #include <deque>
 #include <map>
 
@@ -82,6 +82,7 @@ class TreeWalkTrees : public TreeWalkBench {
     std::vector<bool> given(ranges.size());
     std::deque<Object> testers(static_cast<std::size_t>(around.latency));
     LineBounds bounds = all_bounds(kDepths - 1);
+    std::vector<Moment> moments;
     std::size_t current = 0;
     int triangles = 0;
     given[0] = true;
@@ -93,6 +94,10 @@ class TreeWalkTrees : public TreeWalkBench {
       Inputs in;
       in.start = k == 0;
       in.root = ranges[0].range;
+      const auto valid = [](const Object& object) { return object.valid; };
+      const auto sphere = [](const Object& object) { return object.valid && !object.vertex; };
+      Moment now{false, model_.level() != 0, std::any_of(testers.begin(), testers.end(), sphere),
+                 std::count_if(testers.begin(), testers.end(), valid) > kCounted, false};
       const Object leaving = testers.front();
       testers.pop_front();
       in.decision.decided = leaving.valid;
@@ -114,6 +119,9 @@ class TreeWalkTrees : public TreeWalkBench {
       in.triangles = triangles;
       const WalkRequest request = clock(in);
       ASSERT_FALSE(HasFatalFailure());
+      now.request = request.valid;
+      now.spent = spent_;
+      moments.push_back(now);
       Object started{request.valid, request.vertex, request.last, 0, 0};
       if (request.valid) {
         const auto begins = range_at.find({request.vertex, request.address});
@@ -137,6 +145,7 @@ class TreeWalkTrees : public TreeWalkBench {
       ASSERT_LE(triangles, kTriangleRoom);
       ASSERT_LE(model_.level(), kStackDepth);
     }
+    ASSERT_NO_FATAL_FAILURE(check_spent(moments));
     for (std::size_t k = 0; k < ranges.size(); ++k) {
       const WalkRange& range = ranges[k].range;
       ASSERT_TRUE(requested[k] == 0 || requested[k] == range.count) << "a part of a range";
@@ -149,6 +158,27 @@ class TreeWalkTrees : public TreeWalkBench {
       }
     }
     count_checked(ranges.size());
+  }
+
+ private:
+  static constexpr int kCounted = 15;  // vertices under test that can make it spent
+  /// A clock of a walk.
+  struct Moment {
+    bool request;
+    bool stacked;  ///< ranges
+    bool sphere;   ///< one is under test
+    bool many;     ///< more than kCounted objects are
+    bool spent;
+  };
+
+  /// Spent: nothing was requested from here on, the stack is empty, and only vertices are under test.
+  static void check_spent(const std::vector<Moment>& moments) {
+    bool more = false;  // in this clock or later
+    for (std::size_t k = moments.size(); k-- > 1;) {
+      const Moment& now = moments[k];
+      more = more || now.request;
+      ASSERT_EQ(now.spent, !more && !now.stacked && !now.sphere && !now.many) << "clock " << k;
+    }
   }
 };
 

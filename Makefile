@@ -14,7 +14,7 @@ RENDER_JSON = $(BUILD)/$(if $(filter scenes/cornell_teapot.json-raplas-128,$(SCE
 PRIM ?= generic
 SIM ?= verilator
 
-.PHONY: help setup configure build render model sim test lint netlist prove mutation skip figures trace waves scenes soak clean
+.PHONY: help setup configure build render model sim test lint netlist prove mutation skip figures trace waves scenes soak bench clean
 
 help: ## this list
 	@echo "RAPLAS: ray tracing by planes and bounding spheres, in VHDL, a golden model, and a host"
@@ -83,6 +83,12 @@ skip: build scenes ## what profile raplas skips in all scenes, every result comp
 	@for mesh in $(SKIP_MESHES); do name=$$(basename $${mesh%.*} | sed 's/^teapot$$/teapot_1k/'); \
 	  $(SKIP) $$mesh --name $$name --width 512 --height 512 -o $(BUILD)/skip/$$name \
 	    --json $(BUILD)/figures/skip.$$name.json; done
+
+bench: configure scenes ## errors of number formats, on four scenes: build/bench/format_error.csv
+	@ninja -C $(BUILD) -j $(JOBS) format_error
+	@mkdir -p $(BUILD)/bench $(BUILD)/figures
+	$(BUILD)/bench/format_error scenes/cornell.json scenes/cornell_teapot.json $(BUILD)/scenes/bunny_69k.obj \
+	  $(BUILD)/scenes/dragon_871k.ply --csv $(BUILD)/bench/format_error.csv --json $(BUILD)/figures/format_error.json
 
 figures: ## makes what is missing and collects build/figures.json and the tables of README and numerics
 	@[ -f $(BUILD)/figures/render.json ] || $(MAKE) render

@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
-#include <exception>
-#include <new>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -15,15 +13,13 @@
 #include <vector>
 
 #include "format_sweep.hpp"
+#include "program.hpp"
 #include "progress.hpp"
 #include "raplas/output_file.hpp"
 #include "session.hpp"
 
 namespace raplas {
 namespace {
-
-constexpr int kExitFailure = 1;
-constexpr int kExitUsage = 2;
 
 struct CommandLine {
   std::vector<std::string> scenes;
@@ -202,11 +198,6 @@ void run(const CommandLine& line, const std::string& command) {
   }
 }
 
-void print_error(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  fmt::print(stderr, "format_error: {}\n", text);
-}
-
 int parse_and_run(int argc, char** argv) {
   constexpr int kMaxSide = 16384;
   CLI::App app{"Measure the errors of number formats of the ray-triangle test", "format_error"};
@@ -218,19 +209,10 @@ int parse_and_run(int argc, char** argv) {
   app.add_option("--csv", line.csv, "file for all numbers, one line a scene and format");
   app.add_option("--json", line.json, "file for figures");
   app.add_flag("--quiet", line.quiet, "no progress");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& asked_for_help) {
-    return app.exit(asked_for_help);
-  } catch (const CLI::ParseError& error) {
-    print_error(error.what());
-    return kExitUsage;
+  if (const auto exit_code = parse(app, argc, argv)) {
+    return *exit_code;
   }
-  std::string command = "format_error";
-  for (int k = 1; k < argc; ++k) {
-    command += std::string(" ") + argv[k];
-  }
-  run(line, command);
+  run(line, command_line(app, argc, argv));
   return 0;
 }
 
@@ -238,12 +220,5 @@ int parse_and_run(int argc, char** argv) {
 }  // namespace raplas
 
 int main(int argc, char** argv) {
-  try {
-    return raplas::parse_and_run(argc, argv);
-  } catch (const std::bad_alloc&) {
-    raplas::print_error("out of memory");
-  } catch (const std::exception& error) {
-    raplas::print_error(error.what());
-  }
-  return raplas::kExitFailure;
+  return raplas::run_program("format_error", argc, argv, raplas::parse_and_run);
 }

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <string>
 
-#include "format_errors.hpp"
+#include "error_counter.hpp"
 
 namespace raplas {
 

@@ -1,21 +1,14 @@
 // The `raplas` command: reads the command line and runs a subcommand.
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cstdio>
-#include <exception>
-#include <new>
 #include <optional>
 #include <string>
 
 #include "commands.hpp"
+#include "program.hpp"
 
 namespace raplas {
 namespace {
 
-constexpr int kExitFailure = 1;
-constexpr int kExitUsage = 2;
 constexpr int kMaxSample = 1 << 20;
 
 /// Options of the subcommands as given; what is absent comes from the profile.
@@ -87,11 +80,6 @@ Settings resolve(const CommandLine& line) {
   return settings;
 }
 
-void print_error(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  fmt::print(stderr, "raplas: {}\n", text);
-}
-
 int parse_and_run(int argc, char** argv) {
   CLI::App app{"Ray tracing with the RAPLAS accelerator", "raplas"};
   app.require_subcommand(1);
@@ -135,40 +123,22 @@ int parse_and_run(int argc, char** argv) {
       ->check(CLI::Range(0, kMaxSample))
       ->capture_default_str();
 
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& asked_for_help) {
-    return app.exit(asked_for_help);
-  } catch (const CLI::ParseError& error) {
-    print_error(error.what());
-    return kExitUsage;
+  if (const auto exit_code = parse(app, argc, argv)) {
+    return *exit_code;
   }
   if (render->parsed()) {
     return run(RenderCommand{resolve(line), device, picture, hits});
   }
-  std::string command_line = "raplas";
-  for (int k = 1; k < argc; ++k) {
-    command_line += std::string(" ") + argv[k];
-  }
   if (skip->parsed()) {
     skipping.settings = resolve(skip_line);
     skipping.folder = maps;
-    skipping.command_line = command_line;
+    skipping.command_line = command_line(app, argc, argv);
     return run(skipping);
   }
-  return run(CompareCommand{resolve(line), folder, command_line});
+  return run(CompareCommand{resolve(line), folder, command_line(app, argc, argv)});
 }
 
 }  // namespace
 }  // namespace raplas
 
-int main(int argc, char** argv) {
-  try {
-    return raplas::parse_and_run(argc, argv);
-  } catch (const std::bad_alloc&) {
-    raplas::print_error("out of memory");
-  } catch (const std::exception& error) {
-    raplas::print_error(error.what());
-  }
-  return raplas::kExitFailure;
-}
+int main(int argc, char** argv) { return raplas::run_program("raplas", argc, argv, raplas::parse_and_run); }

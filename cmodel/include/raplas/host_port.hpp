@@ -41,12 +41,15 @@ template <std::size_t kWords>
 
 inline constexpr std::size_t kWordRays = std::size_t{1} << kWordRaysLog2;
 
-/// Words of a pencil: two registers, the planes of both sides, the rays.
+/// Words of a pencil before those of its lines: two registers, and two pairs of planes.
+inline constexpr std::size_t kPencilHead = 4;
+
+/// Words of a pencil: its head, the planes of its lines, the rays.
 template <typename F>
 [[nodiscard]] std::size_t pencil_words(const FixedPencilMemory<F>& pencil) noexcept {
   const std::size_t rows = pencil.pencil.rows;
   const std::size_t columns = pencil.pencil.columns;
-  return 4 + std::max(rows, columns) + rows * ((columns + kWordRays - 1) / kWordRays);
+  return kPencilHead + std::max(rows, columns) + rows * ((columns + kWordRays - 1) / kWordRays);
 }
 
 /// Word 0 .. pencil_words() - 1 of the pencil of a bank.
@@ -67,7 +70,7 @@ template <typename F>
     case 3:
       return planes(kGridPlane, pencil.planes.down, pencil.planes.across);
     default:
-      word -= 4;
+      word -= kPencilHead;
   }
   if (word < lines) {
     return planes(word, pencil.planes.rows[word], pencil.planes.columns[word]);

@@ -1,4 +1,4 @@
-#include "format_errors.hpp"
+#include "error_counter.hpp"
 
 #include <algorithm>
 

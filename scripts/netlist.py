@@ -3,7 +3,7 @@
 
 usage: netlist.py [--unit U ...] [--count] [--check] [--build DIR] [--fresh]
 
-Each unit is exported with prim xc4v and default generics (U_fabric: EXPONENT_DSP = false) into
+Each unit is exported with prim xc4v and default generics (or those of VARIANTS) into
 DIR/netlist/U/ (DIR: build), and synthesised by yosys synth_xilinx -family xc4v. The figures go into
 DIR/figures/netlist.json:
   dsp48.U             DSP48 cells: the ones instantiated in rtl/prim/xc4v
@@ -53,10 +53,14 @@ DSP48 = {
     "ray_solver_fabric": 33,
     "hit_queue_fabric": 2,
     "intersection_unit": 166,
+    "intersection_unit_paper": 166,
+    "intersection_unit_2x2": 118,
     "raplas_unit": 187,
 }
 FABRIC = ("EXPONENT_DSP=false",)  # exponents in fabric
 VARIANTS = {f"{unit}_fabric": (unit, FABRIC) for unit in ("fp_add", "fp_mul", "ray_solver", "hit_queue")}
+VARIANTS["intersection_unit_paper"] = ("intersection_unit", ("GUARD_BITS=0",))  # as the paper has it
+VARIANTS["intersection_unit_2x2"] = ("intersection_unit", ("NUM_ROWS=2", "NUM_COLUMNS=2"))  # testers
 PAPER = {  # slices and DSP48 that ISE 8.2 reported
     "plane_sphere_subunit": (8248, 96),
     "ray_triangle": (5282, 70),

@@ -7,8 +7,6 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -16,6 +14,7 @@
 #include "program.hpp"
 #include "progress.hpp"
 #include "raplas/output_file.hpp"
+#include "scene_names.hpp"
 #include "session.hpp"
 
 namespace raplas {
@@ -154,17 +153,6 @@ void add_figures(nlohmann::ordered_json& json, const Measured& m, const std::str
       if (value.number) {
         add(name_of(kSweep[k]) + "." + value.name, *value.number, value.unit);
       }
-    }
-  }
-}
-
-/// Throws std::runtime_error if two scenes would have figures of the same name.
-void check_names(const std::vector<std::string>& scenes) {
-  std::set<std::string> stems;
-  for (const std::string& scene : scenes) {
-    const std::string stem = std::filesystem::path(scene).stem().string();
-    if (!stems.insert(stem).second) {
-      throw std::runtime_error(fmt::format("{}: another scene is called {} too", scene, stem));
     }
   }
 }

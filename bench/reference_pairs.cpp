@@ -35,19 +35,6 @@ bool meets(const SphereNode& node, const glm::dvec3& origin, const glm::dvec3& d
   return half2 >= 0 && middle + std::sqrt(half2) >= 0;
 }
 
-SampledRay sampled_ray(const DeviceScene& scene, const glm::dvec3& origin, const glm::dvec3& direction) {
-  SampledRay ray{direction, {}, 0};
-  for (const std::uint32_t id : candidates(scene, origin, direction)) {
-    const ReferencePair pair = reference_pair(scene.triangles[id], id, origin, direction);
-    if (pair.verdict == Verdict::undecided) {
-      ++ray.undecided;
-    } else {
-      ray.pairs.push_back(pair);
-    }
-  }
-  return ray;
-}
-
 }  // namespace
 
 ReferencePair reference_pair(const Triangle& triangle, std::uint32_t id, const glm::dvec3& origin,
@@ -113,6 +100,19 @@ std::vector<std::uint32_t> candidates(const DeviceScene& scene, const glm::dvec3
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
+}
+
+SampledRay sampled_ray(const DeviceScene& scene, const glm::dvec3& origin, const glm::dvec3& direction) {
+  SampledRay ray{direction, {}, 0};
+  for (const std::uint32_t id : candidates(scene, origin, direction)) {
+    const ReferencePair pair = reference_pair(scene.triangles[id], id, origin, direction);
+    if (pair.verdict == Verdict::undecided) {
+      ++ray.undecided;
+    } else {
+      ray.pairs.push_back(pair);
+    }
+  }
+  return ray;
 }
 
 Sample make_sample(const DeviceScene& scene, const Camera& camera, int width, int height,

@@ -41,6 +41,10 @@ struct SampledRay {
   std::uint32_t undecided = 0;  ///< pairs left out
 };
 
+/// The ray with the pairs of its candidates; `direction` has unit length.
+[[nodiscard]] SampledRay sampled_ray(const DeviceScene& scene, const glm::dvec3& origin,
+                                     const glm::dvec3& direction);
+
 /// Rays of one origin.
 struct SampledPencil {
   glm::dvec3 origin;

@@ -84,11 +84,18 @@ skip: build scenes ## what profile raplas skips in all scenes, every result comp
 	  $(SKIP) $$mesh --name $$name --width 512 --height 512 -o $(BUILD)/skip/$$name \
 	    --json $(BUILD)/figures/skip.$$name.json; done
 
-bench: configure scenes ## errors of number formats, on four scenes: build/bench/format_error.csv
-	@ninja -C $(BUILD) -j $(JOBS) format_error
+BENCH_SCENES = scenes/cornell.json scenes/cornell_teapot.json $(BUILD)/scenes/bunny_69k.obj \
+  $(BUILD)/scenes/dragon_871k.ply
+bench: configure scenes ## run time against error: number formats, plane tests, whole configurations; build/bench/report.html
+	@ninja -C $(BUILD) -j $(JOBS) format_error plane_error configurations
 	@mkdir -p $(BUILD)/bench $(BUILD)/figures
-	$(BUILD)/bench/format_error scenes/cornell.json scenes/cornell_teapot.json $(BUILD)/scenes/bunny_69k.obj \
-	  $(BUILD)/scenes/dragon_871k.ply --csv $(BUILD)/bench/format_error.csv --json $(BUILD)/figures/format_error.json
+	$(BUILD)/bench/format_error $(BENCH_SCENES) --csv $(BUILD)/bench/format_error.csv \
+	  --json $(BUILD)/figures/format_error.json
+	$(BUILD)/bench/plane_error $(BENCH_SCENES) --json $(BUILD)/figures/plane_error.json
+	$(BUILD)/bench/configurations $(BENCH_SCENES) --pictures $(BUILD)/bench/pictures \
+	  --json $(BUILD)/figures/configurations.json
+	bench/picture_similarity.py --build $(BUILD)
+	bench/report.py --build $(BUILD) --require-better-than paper
 
 figures: ## makes what is missing and collects build/figures.json and the tables of README and numerics
 	@[ -f $(BUILD)/figures/render.json ] || $(MAKE) render

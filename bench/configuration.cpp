@@ -63,8 +63,8 @@ std::vector<Configuration> configurations() {
       unit<Fp24>("paper_guarded", "paper with exact adders", kFlat, kPaperPencil, {4, 4},
                  "intersection_unit"),
       unit<Fp24Paper>("paper_tree", "paper with a tree", kTree, kMaxRows, {4, 4}, "intersection_unit_paper"),
-      unit<Fp24>("tree", "paper with exact adders and a tree", kTree, kMaxRows, {4, 4}, "intersection_unit"),
-      unit<Fp24>("tree_2x2", "the same with 2+2 testers", kTree, kMaxRows, {2, 2}, "intersection_unit_2x2"),
+      unit<Fp24>("tree_2x2", "exact adders, a tree, 2+2 testers", kTree, kMaxRows, {2, 2},
+                 "intersection_unit_2x2"),
       raplas_unit("raplas", "profile raplas", {}, "raplas_unit"),
   };
   return list;

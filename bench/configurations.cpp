@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "configuration.hpp"
+#include "heat_map.hpp"
 #include "program.hpp"
 #include "progress.hpp"
 #include "raplas/output_file.hpp"
@@ -295,6 +296,19 @@ void print_table(const std::vector<Configuration>& list, const SceneRuns& scene)
   std::fflush(stdout);
 }
 
+/// Clocks of profile raplas for each camera pencil.
+void write_heat_map(const SceneRuns& scene, const CommandLine& line) {
+  const StreamRun run = run_stream(scene.prepared.at(Structure::tree).tree.scene,
+                                   scene.recorded.at(kMaxRows).camera, [](double /*share*/) {});
+  HeatMap map{(line.width + kMaxColumns - 1) / kMaxColumns, {}};
+  for (const PencilCost& cost : run.costs) {
+    map.values.push_back(cost.clocks);
+  }
+  OutputFile file(std::filesystem::path(line.pictures) / fmt::format("{}.clocks.png", scene.name));
+  write_png(draw(map), file);
+  file.commit();
+}
+
 void write_pictures(const std::vector<Configuration>& list, const SceneRuns& scene,
                     const std::string& folder) {
   for (std::size_t k = 0; k < list.size(); ++k) {
@@ -414,6 +428,7 @@ void run(const CommandLine& line, const std::string& command) {
     print_table(list, scene);
     if (!line.pictures.empty()) {
       write_pictures(list, scene, line.pictures);
+      write_heat_map(scene, line);
     }
     scene.prepared.clear();
     scene.recorded.clear();

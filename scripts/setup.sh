@@ -17,6 +17,8 @@ packages=(
   # libraries of the host and the tests
   libassimp-dev libcli11-dev libfmt-dev libglm-dev libpng-dev nlohmann-json3-dev
   libgtest-dev libgmock-dev libmpfr-dev libgmp-dev
+  # benchmarks: another ray tracer, plots, picture metrics
+  libembree-dev python3-matplotlib python3-skimage
   # linters
   clang-format clang-tidy
 )

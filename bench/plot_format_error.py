@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Draw what format_error measured: errors against fraction bits, a panel for each scene, a line for each adder.
 
 usage: plot_format_error.py FILE.csv ... -o PICTURE.png [--value COLUMN]

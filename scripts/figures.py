@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Collect measured figures, and fill the tables of README.md, docs/numerics.md and docs/skipping.md with them.
+"""Collect measured figures, and fill the tables of README.md and of pages in docs/ with them.
 
 usage: figures.py [--require NAME ...] [--check] [--build DIR] [--page FILE ...]
 
@@ -22,7 +22,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 MARK = re.compile(r"(?ms)^(<!-- figures:(\w+) -->\n)(.*?)^(<!-- /figures -->)$")
 DASH = "-"
-PAGES = (ROOT / "README.md", ROOT / "docs/numerics.md", ROOT / "docs/skipping.md")
+PAGES = tuple(ROOT / page for page in ("README.md", "docs/benchmarks.md", "docs/numerics.md", "docs/skipping.md"))
 
 # What the paper reports for the XC4VSX35 with ISE 8.2.
 PAPER = {
@@ -45,6 +45,11 @@ SKIP_STEPS = (("brute force", "brute"), ("conventional, ray by ray", "convention
               ("+ behind", "behind"), ("+ nearest first", "nearest"), ("+ hidden", "hidden"),
               ("+ rectangles", "rectangles"), ("+ scan lines", "scan_lines"), ("+ ended", "ended"), ("the clocked unit", "clocked"))
 TESTS = (("spheres", "sphere_tests_per_ray"), ("vertices", "vertex_tests_per_ray"), ("pairs", "pairs_per_ray"))
+BENCH_SCENES = (("Cornell", "cornell"), ("teapot", "cornell_teapot"), ("bunny", "bunny_69k"), ("dragon", "dragon_871k"))
+CONFIGURATIONS = tuple((f"`{name}`", name) for name in (
+    "paper", "paper_guarded", "paper_tree", "tree_2x2", "raplas", "double", "float", "embree", "embree_robust"))
+PLANE_WORDS = (("`fp24_paper`", "fp24_paper"), ("`fp24`", "fp24"),
+               *((f"{width} bits", f"w{width}") for width in range(10, 25)))
 ONE_FIGURE = (("value", "value"), ("unit", "unit"), ("command", "command"))
 TABLES = {
     "hardware": {
@@ -169,6 +174,33 @@ TABLES = {
         "rows": SKIP_STEPS,
         "optional": (),
     } for _, scene in SKIP_SCENES},
+    "configurations": {
+        "head": "mean of four scenes",
+        "columns": (("rays wrong, %", "error.*.misclassified_percent"), ("RMSE, levels", "error.*.rmse"),
+                    ("PSNR, dB", "error.*.psnr"), ("1 - SSIM", "error.*.dissimilarity"),
+                    ("pixels, %", "error.*.pixels_percent"), ("clocks/ray", "cost.*.clocks_per_ray"),
+                    ("LUT", "cost.*.lut"), ("DSP48", "cost.*.dsp48"), ("RAMB16", "cost.*.block_ram"),
+                    ("time of `double`", "cost.*.time")),
+        "rows": CONFIGURATIONS,
+        "optional": (),
+    },
+    "configuration_scenes": {
+        "head": "by scene",
+        "columns": tuple((f"{text}: {what}", f"{kind}.{scene}.*.{key}") for text, scene in BENCH_SCENES
+                         for what, kind, key in (("rays wrong, %", "error", "misclassified_percent"),
+                                                 ("RMSE", "error", "rmse"), ("clocks/ray", "cost", "clocks_per_ray"))),
+        "rows": CONFIGURATIONS,
+        "optional": (),
+    },
+    "planes": {
+        "head": "words",
+        "columns": (("DSP48 a test", "planes.*.dsp48"), ("lost, %", "planes.*.lost_percent"),
+                    ("found too much, %", "planes.*.false_percent"),
+                    ("without slack: lost, %", "planes.*.bare_lost_percent"),
+                    ("too much, %", "planes.*.bare_false_percent")),
+        "rows": PLANE_WORDS,
+        "optional": (),
+    },
     "mutation": {
         "head": "unit",
         "columns": (("mutants", "mutation.*.mutants"), ("killed", "mutation.*.killed"),

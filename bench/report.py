@@ -164,10 +164,11 @@ def pareto_front(points):
     return front
 
 
-def pareto_panel(axis, figures, names, cost, error, colour):
+def pareto_panel(axis, figures, names, x_axis, y_axis, colour):
+    """Configurations by two figures, each (text, name with {} for the configuration); smaller is better."""
     points = collections.defaultdict(list)
     for name in names:
-        x, y = figures(f"cost.{name}.{cost[1]}"), figures(f"error.{name}.{error[1]}")
+        x, y = (figures(key.format(name)) for _, key in (x_axis, y_axis))
         if x is not None and y:
             points[float(f"{x:.3g}"), float(f"{y:.3g}")].append(name)
     for k, point in enumerate(sorted(points)):  # labels above and below in turn
@@ -176,16 +177,21 @@ def pareto_panel(axis, figures, names, cost, error, colour):
                       va="bottom" if k % 2 == 0 else "top", textcoords="offset points", fontsize=8)
     front = pareto_front(points)
     axis.step([x for x, _ in front], [y for _, y in front], where="post", color=colour, linewidth=1, alpha=0.6)
-    axis.set_xlabel(cost[0])
-    axis.set_ylabel(error[0])
+    axis.set_xlabel(x_axis[0])
+    axis.set_ylabel(y_axis[0])
     axis.grid(True, color="#dddddd", linewidth=0.6)
     axis.margins(0.3)
     if not points:
         axis.text(0.5, 0.5, "all errors are 0", transform=axis.transAxes, ha="center")
-    if points:
+        return
+    if axis.get_yscale() == "linear":
         axis.set_ylim(0, 1.25 * max(y for _, y in points))
-    if points and axis.get_xscale() == "linear":
+    if axis.get_xscale() == "linear":
         axis.set_xlim(0, 1.3 * max(x for x, _ in points))
+
+
+def axis_of(text, kind, key):
+    return text, f"{kind}.{{}}.{key}"
 
 
 def pareto(figures, errors=ERRORS[:2]):
@@ -203,21 +209,22 @@ def pareto(figures, errors=ERRORS[:2]):
             colour = SOFTWARE_COLOUR if members is software else HARDWARE_COLOUR
             if cost[1] == "clocks_per_ray":
                 axis.set_xscale("log")
-            pareto_panel(axis, figures, members, cost, error, colour)
+            pareto_panel(axis, figures, members, axis_of(cost[0], "cost", cost[1]),
+                         axis_of(error[0], "error", error[1]), colour)
     figure.tight_layout()
     return figure
 
 
 def pareto_picture(figures):
-    """The main plot: errors against clocks, LUT written beside, and against LUT."""
-    figure, axes = pyplot.subplots(1, 2, figsize=(10, 4.2), sharey=True)
+    """The main plot: errors against clocks, and clocks against LUT."""
+    figure, axes = pyplot.subplots(1, 2, figsize=(10, 4.2))
+    clocks = axis_of("clocks a ray, geometric mean of the scenes", "cost", "clocks_per_ray")
+    lut = axis_of("LUT of the whole unit, estimated by Yosys", "cost", "lut")
+    wrong = axis_of("rays wrong, %, mean of the scenes", "error", "misclassified_percent")
     axes[0].set_xscale("log")
-    for axis, cost in zip(axes, COSTS):
-        pareto_panel(axis, figures, hardware(figures), cost, ERRORS[0], HARDWARE_COLOUR)
-    axes[0].set_xlabel("clocks a ray, geometric mean of four scenes")
-    axes[1].set_xlabel("LUT of the whole unit, Yosys")
-    axes[0].set_ylabel("rays wrong, %, mean of four scenes")
-    axes[1].set_ylabel("")
+    axes[1].set_yscale("log")
+    pareto_panel(axes[0], figures, hardware(figures), clocks, wrong, HARDWARE_COLOUR)
+    pareto_panel(axes[1], figures, hardware(figures), lut, clocks, HARDWARE_COLOUR)
     figure.suptitle("Better is left and below; lines join what nothing else is better than", fontsize=10)
     figure.tight_layout()
     return figure

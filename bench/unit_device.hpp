@@ -22,7 +22,7 @@ namespace raplas {
 /// is returned as it is. trace_pencil() gives the same hits for both.
 template <typename F>
 [[nodiscard]] SceneMemory<F> with_groups(SceneMemory<F> memory) {
-  constexpr std::uint32_t kGroup = 8;
+  constexpr std::uint32_t kGroup = 4;
   // More than twice the tester's error for |c| + |p| <= 2 (docs/radius.md) and the rounding of the centre.
   constexpr double kTesterError = 0x1p-11;
   const auto all_leaves = [&] {

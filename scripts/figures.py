@@ -36,7 +36,8 @@ PAPER = {
 # the figure that has the key in its place; rows may be such a kind too: all keys that there are. The kinds
 # "value", "unit" and "command" show that part of the figure `key` itself; optional rows vanish without it.
 UNITS = ("fp_add", "fp_mul", "plane_sphere_tester", "plane_sphere_subunit", "nearest_hit", "ray_triangle",
-         "intersection_unit", "fixed_testers", "ray_solver_fabric", "hit_queue_fabric", "raplas_unit")
+         "intersection_unit", "intersection_unit_paper", "intersection_unit_2x2", "fixed_testers",
+         "ray_solver_fabric", "hit_queue_fabric", "raplas_unit")
 SKIP_SCENES = (("Cornell box", "cornell"), ("Cornell box with teapot", "teapot"), ("bunny, floor", "bunny_floor"),
                ("dragon, floor", "dragon_floor"))
 SKIP_MESHES = ("teapot_1k", "bunny_3k", "dragon_11k", "dragon_47k", "bunny_69k", "dragon_202k", "dragon_871k")

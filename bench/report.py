@@ -311,8 +311,9 @@ def page(figures, build, sentences):
              table(("mean of the scenes", *(text for text, _ in ERRORS), *(text for text, _ in COSTS)),
                    configuration_rows(figures, names, mean_keys)),
              "<h2>Pareto plots</h2><p>Left and below is better; lines join what nothing else is better than. Errors "
-             "of 0 have no place on a plot.</p>", image(plot_uri(pareto(figures)), "Pareto plots"),
-             "<h2>Plane tests</h2>", planes_table(figures), image(plot_uri(planes_plot(figures, scenes)), "planes")]
+             "of 0 have no place on a plot.</p>", image(plot_uri(pareto(figures)), "Pareto plots")]
+    if (build / "figures/plane_error.json").exists():
+        parts += ["<h2>Plane tests</h2>", planes_table(figures), image(plot_uri(planes_plot(figures, scenes)), "planes")]
     csv = build / "bench/format_error.csv"
     if csv.exists():
         parts += ["<h2>Number formats of the ray-triangle test</h2>", sweep_plots(csv)]

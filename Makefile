@@ -86,7 +86,7 @@ skip: build scenes ## what profile raplas skips in all scenes, every result comp
 
 BENCH_SCENES = scenes/cornell.json scenes/cornell_teapot.json $(BUILD)/scenes/bunny_69k.obj \
   $(BUILD)/scenes/dragon_871k.ply
-bench: configure scenes ## run time against error: number formats, plane tests, whole configurations; build/bench/report.html
+bench: configure scenes ## run time against error: formats, plane tests, configurations; build/bench/report.html
 	@ninja -C $(BUILD) -j $(JOBS) format_error plane_error configurations
 	@mkdir -p $(BUILD)/bench $(BUILD)/figures
 	$(BUILD)/bench/format_error $(BENCH_SCENES) --csv $(BUILD)/bench/format_error.csv \

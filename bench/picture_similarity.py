@@ -5,8 +5,9 @@ usage: picture_similarity.py [--build DIR]
 
 Reads DIR/figures/configurations.json and the pictures in DIR/bench/pictures that `configurations` wrote (DIR: build),
 and writes DIR/figures/picture_similarity.json: error.<scene>.<configuration>.ssim and error.<configuration>.ssim, the
-mean over the scenes; .dissimilarity is 1 - SSIM. SSIM is scikit-image's with the window of Wang et al. 2004. The pictures' RMSE is computed again
-from the files; exit code 1 if it is not the one that was reported. Runs on Debian's Python: python3-skimage.
+mean over the scenes; .dissimilarity is 1 - SSIM. SSIM is scikit-image's with the window of Wang et al. 2004. The
+pictures' RMSE is computed again from the files; exit code 1 if it is not the one that was reported. Runs on Debian's
+Python: python3-skimage, python3-pil.
 """
 import argparse
 import json

@@ -313,7 +313,8 @@ def page(figures, build, sentences):
              "<h2>Pareto plots</h2><p>Left and below is better; lines join what nothing else is better than. Errors "
              "of 0 have no place on a plot.</p>", image(plot_uri(pareto(figures)), "Pareto plots")]
     if (build / "figures/plane_error.json").exists():
-        parts += ["<h2>Plane tests</h2>", planes_table(figures), image(plot_uri(planes_plot(figures, scenes)), "planes")]
+        plot = image(plot_uri(planes_plot(figures, scenes)), "plane tests")
+        parts += ["<h2>Plane tests</h2>", planes_table(figures), plot]
     csv = build / "bench/format_error.csv"
     if csv.exists():
         parts += ["<h2>Number formats of the ray-triangle test</h2>", sweep_plots(csv)]
@@ -321,7 +322,8 @@ def page(figures, build, sentences):
         error_keys = [f"error.{scene}.{{}}.{key}" for _, key in SCENE_ERRORS]
         cost_keys = [f"cost.{scene}.{{}}.{key}" for _, key in SCENE_COSTS]
         parts += [f"<h2>{html.escape(scene)}</h2>",
-                  table(("errors", *(text for text, _ in SCENE_ERRORS)), configuration_rows(figures, names, error_keys)),
+                  table(("errors", *(text for text, _ in SCENE_ERRORS)),
+                        configuration_rows(figures, names, error_keys)),
                   table(("costs", *(text for text, _ in SCENE_COSTS)), configuration_rows(figures, names, cost_keys)),
                   scene_pictures(figures, scene, build / "bench/pictures")]
     return (f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>Run time against error</title>'

@@ -46,7 +46,8 @@ SKIP_STEPS = (("brute force", "brute"), ("conventional, ray by ray", "convention
               ("+ behind", "behind"), ("+ nearest first", "nearest"), ("+ hidden", "hidden"),
               ("+ rectangles", "rectangles"), ("+ scan lines", "scan_lines"), ("+ ended", "ended"), ("the clocked unit", "clocked"))
 TESTS = (("spheres", "sphere_tests_per_ray"), ("vertices", "vertex_tests_per_ray"), ("pairs", "pairs_per_ray"))
-BENCH_SCENES = (("Cornell", "cornell"), ("teapot", "cornell_teapot"), ("bunny", "bunny_69k"), ("dragon", "dragon_871k"))
+BENCH_SCENES = (("Cornell", "cornell"), ("teapot", "cornell_teapot"), ("bunny", "bunny_69k"),
+                ("dragon", "dragon_871k"))
 CONFIGURATIONS = tuple((f"`{name}`", name) for name in (
     "paper", "paper_guarded", "paper_tree", "tree_2x2", "raplas", "double", "float", "embree", "embree_robust"))
 PLANE_WORDS = (("`fp24_paper`", "fp24_paper"), ("`fp24`", "fp24"),

@@ -18,7 +18,7 @@ packages=(
   libassimp-dev libcli11-dev libfmt-dev libglm-dev libpng-dev nlohmann-json3-dev
   libgtest-dev libgmock-dev libmpfr-dev libgmp-dev
   # benchmarks: another ray tracer, plots, picture metrics
-  libembree-dev python3-matplotlib python3-skimage
+  libembree-dev python3-matplotlib python3-pil python3-skimage
   # linters
   clang-format clang-tidy
 )

@@ -14,7 +14,7 @@ RENDER_JSON = $(BUILD)/$(if $(filter scenes/cornell_teapot.json-raplas-128,$(SCE
 PRIM ?= generic
 SIM ?= verilator
 
-.PHONY: help setup configure build render model sim test lint netlist prove mutation skip figures trace waves scenes soak bench clean
+.PHONY: help setup configure build render model sim test lint netlist prove mutation skip figures trace waves scenes soak exact stress bench clean
 
 help: ## this list
 	@echo "RAPLAS: ray tracing by planes and bounding spheres, in VHDL, a golden model, and a host"
@@ -86,6 +86,11 @@ skip: build scenes ## what profile raplas skips in all scenes, every result comp
 
 BENCH_SCENES = scenes/cornell.json scenes/cornell_teapot.json $(BUILD)/scenes/bunny_69k.obj \
   $(BUILD)/scenes/dragon_871k.ply
+exact: configure scenes ## the hits of exact devices against double precision, on four scenes
+	@ninja -C $(BUILD) -j $(JOBS) exact_hits
+	@mkdir -p $(BUILD)/figures
+	$(BUILD)/bench/exact_hits --tile 20 $(BENCH_SCENES) --json $(BUILD)/figures/exact.json
+
 bench: configure scenes ## run time against error: formats, plane tests, configurations; build/bench/report.html
 	@ninja -C $(BUILD) -j $(JOBS) format_error plane_error configurations
 	@mkdir -p $(BUILD)/bench $(BUILD)/figures
@@ -97,6 +102,11 @@ bench: configure scenes ## run time against error: formats, plane tests, configu
 	bench/picture_similarity.py --build $(BUILD)
 	bench/report.py --build $(BUILD) --require-better-than paper
 
+stress: configure ## a catalogue of numerical traps on reference and model: build/bench/stress.csv; fails if a promise does
+	@ninja -C $(BUILD) -j $(JOBS) stress
+	@mkdir -p $(BUILD)/bench $(BUILD)/figures
+	$(BUILD)/bench/stress --csv $(BUILD)/bench/stress.csv --json $(BUILD)/figures/stress.json
+
 figures: ## makes what is missing and collects build/figures.json and the tables of README and numerics
 	@[ -f $(BUILD)/figures/render.json ] || $(MAKE) render
 	@[ -f $(BUILD)/figures/netlist.json ] || $(MAKE) netlist
@@ -104,6 +114,8 @@ figures: ## makes what is missing and collects build/figures.json and the tables
 	@[ -f $(BUILD)/figures/proof.json ] && [ -f $(BUILD)/figures/radius.json ] || $(MAKE) prove
 	@[ -f $(BUILD)/figures/mutation.json ] || $(MAKE) mutation
 	@[ -f $(BUILD)/figures/skip.dragon_871k.json ] || $(MAKE) skip
+	@[ -f $(BUILD)/figures/exact.json ] || $(MAKE) exact
+	@[ -f $(BUILD)/figures/stress.json ] || $(MAKE) stress
 	@scripts/figures.py --build $(BUILD)
 
 trace: configure ## traces of UNIT's bench and of its model, compared: build/traces
@@ -127,7 +139,10 @@ waves: configure ## all signals of UNIT's bench for GTKWave: build/waves/UNIT.gh
 scenes: setup ## fetches the Stanford bunny and dragon and a small bunny: build/scenes
 	@scripts/fetch_scenes.sh $(BUILD)/scenes
 
-soak: build scenes ## 100000 random pencils, all broken designs, real meshes on all devices
+soak: build scenes ## 10^8 single decisions, 100000 random pencils, all broken designs, real meshes on all devices
+	@ninja -C $(BUILD) -j $(JOBS) decisions
+	@mkdir -p $(BUILD)/figures
+	$(BUILD)/bench/decisions --json $(BUILD)/figures/soak.json
 	@ninja -C $(BUILD) -j $(JOBS) raplas_unit.generic.verilator
 	RAPLAS_CASES=100000 RAPLAS_FIGURES=$(BUILD)/figures/unit_random.json $(BUILD)/tb/raplas_unit.generic.verilator \
 	  --gtest_filter='*.FindsTheHitsOfTheDefinition'

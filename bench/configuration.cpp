@@ -66,6 +66,7 @@ std::vector<Configuration> configurations() {
       unit<Fp24>("tree_2x2", "exact adders, a tree, 2+2 testers", kTree, kMaxRows, {2, 2},
                  "intersection_unit_2x2"),
       raplas_unit("raplas", "profile raplas", {}, "raplas_unit"),
+      raplas_unit("exact", "profile raplas, exact", {.exact = true}, "raplas_unit"),
   };
   return list;
 }

@@ -65,8 +65,9 @@ TEST(Configurations, AllSeeAlmostTheSamePicture) {
     EXPECT_EQ(errors.rays, std::uint64_t{kSide * kSide});
     EXPECT_LE(errors.wrong(), 10U) << c.name;
     ASSERT_TRUE(errors.t_relative);
-    EXPECT_LE(errors.t_relative->largest, c.name == "double" ? 0 : 1e-3) << c.name;
-    EXPECT_EQ(errors.t_relative->largest == 0, c.name == "double") << c.name;
+    const bool exact = c.name == "double" || c.name == "exact";
+    EXPECT_LE(errors.t_relative->largest, exact ? 0 : 1e-3) << c.name;
+    EXPECT_EQ(errors.t_relative->largest == 0, exact) << c.name;
     EXPECT_LT(errors.t_relative->median, c.netlist.empty() ? 1e-7 : 1e-5) << c.name;
   }
 }

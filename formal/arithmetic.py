@@ -131,6 +131,8 @@ def cases(work, rtl):
               for k in range(-252, 253)]
     found.append(Miter("plane_sphere_tester.compare", work, rtl, "plane_sphere_tester", 12,
                        stubs=("fp_mul", "fp_add")).case("all", True))
+    found.append(Miter("ray_solver.hit_rule", work, rtl, "ray_solver", 26,
+                       stubs=("fp_add", "fp_cross", "fp_dot3")).case("all", True))
     found.append(Miter("ray_triangle.hit_rule", work, rtl, "ray_triangle", 29,
                        stubs=("fp_add", "fp_cross", "fp_dot3", "nearest_hit")).case("all", True))
     return found
@@ -145,5 +147,6 @@ EXPECTED = {
     "depth_code": 1,
     "nearest_hit": 505,
     "plane_sphere_tester.compare": 1,
+    "ray_solver.hit_rule": 1,
     "ray_triangle.hit_rule": 1,
 }

@@ -97,8 +97,8 @@ MODELS = (
     Model("control.triangle_room", "all", "tree_walk", properties=("triangle_room",), constants=SMALL_STACK,
           unseen=("address_o", "rows_o", "columns_o", "last_o", "stack_level_o")),
     Model("control.hit_room", "all", "hit_queue", properties=("hit_room",), unseen=(
-        "best_bank_o", "best_ray_o", "write_o", "write_bank_o", "ray_o", "result_o", "first_o", "bound_o", "done_o",
-        "done_bank_o")),
+        "best_bank_o", "best_ray_o", "write_o", "write_bank_o", "ray_o", "result_o", "first_o", "bounds_o", "bound_o",
+        "done_o", "done_bank_o")),
 )
 
 

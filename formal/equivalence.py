@@ -37,7 +37,7 @@ MEANS = {
     "block_fifo": {"data_o": "valid_o"},
     "plane_sphere_subunit": {"row_flags_o": "valid_o", "column_flags_o": "valid_o", "tag_o": "valid_o"},
     "ray_triangle": {"ray_o": "valid_o", "result_o": "valid_o"},
-    "hit_queue": {"write_bank_o": "write_o", "ray_o": "write_o", "result_o": "write_o", "bound_o": "write_o",
+    "hit_queue": {"write_bank_o": "write_o", "ray_o": "write_o", "result_o": "write_o", "bound_o": "bounds_o",
                   "done_bank_o": "done_o"},
     "plane_sphere_decoder": {"row_mask_o": "decided_o", "column_mask_o": "decided_o"},
     "selector": {"ray_o": "valid_o", "triangle_o": "valid_o"},

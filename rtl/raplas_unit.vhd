@@ -34,7 +34,7 @@ entity raplas_unit is
     address_i       : in  std_ulogic_vector(ID_BITS - 1 downto 0);
     data_i          : in  std_ulogic_vector(TRIANGLE_BITS - 1 downto 0);
     result_ray_i    : in  std_ulogic_vector(BANK_BITS + 2 * LINE_BITS - 1 downto 0);   -- bank, ray
-    result_o        : out result_word_t;                                 -- MEMORY_STAGES later
+    result_o        : out ray_hits_word_t;                               -- MEMORY_STAGES later
     hit_rows_o      : out std_ulogic_vector(PENCIL_BANKS * MAX_ROWS - 1 downto 0);
                       -- bank b, row r at b * MAX_ROWS + r: a ray of it has a hit
     -- host: control
@@ -62,7 +62,7 @@ entity raplas_unit is
     hit_o           : out std_ulogic;                                    -- ray_solver @26
     stored_o        : out std_ulogic;
     stored_ray_o    : out std_ulogic_vector(2 * LINE_BITS - 1 downto 0);
-    stored_result_o : out result_word_t
+    stored_result_o : out ray_hits_word_t
   );
 end entity raplas_unit;
 

@@ -22,7 +22,8 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 MARK = re.compile(r"(?ms)^(<!-- figures:(\w+) -->\n)(.*?)^(<!-- /figures -->)$")
 DASH = "-"
-PAGES = tuple(ROOT / page for page in ("README.md", "docs/benchmarks.md", "docs/numerics.md", "docs/skipping.md"))
+PAGES = tuple(ROOT / page for page in ("README.md", "docs/benchmarks.md", "docs/exact.md", "docs/numerics.md",
+                                       "docs/skipping.md", "docs/stress.md"))
 
 # What the paper reports for the XC4VSX35 with ISE 8.2.
 PAPER = {
@@ -38,6 +39,8 @@ PAPER = {
 UNITS = ("fp_add", "fp_mul", "plane_sphere_tester", "plane_sphere_subunit", "nearest_hit", "ray_triangle",
          "intersection_unit", "intersection_unit_paper", "intersection_unit_2x2", "fixed_testers",
          "ray_solver_fabric", "hit_queue_fabric", "raplas_unit")
+EXACT_SCENES = (("Cornell box", "cornell"), ("Cornell box with teapot", "cornell_teapot"), ("bunny, floor", "bunny_69k"),
+                ("dragon, floor", "dragon_871k"))
 SKIP_SCENES = (("Cornell box", "cornell"), ("Cornell box with teapot", "teapot"), ("bunny, floor", "bunny_floor"),
                ("dragon, floor", "dragon_floor"))
 SKIP_MESHES = ("teapot_1k", "bunny_3k", "dragon_11k", "dragon_47k", "bunny_69k", "dragon_202k", "dragon_871k")
@@ -49,7 +52,8 @@ TESTS = (("spheres", "sphere_tests_per_ray"), ("vertices", "vertex_tests_per_ray
 BENCH_SCENES = (("Cornell", "cornell"), ("teapot", "cornell_teapot"), ("bunny", "bunny_69k"),
                 ("dragon", "dragon_871k"))
 CONFIGURATIONS = tuple((f"`{name}`", name) for name in (
-    "paper", "paper_guarded", "paper_tree", "tree_2x2", "raplas", "double", "float", "embree", "embree_robust"))
+    "paper", "paper_guarded", "paper_tree", "tree_2x2", "raplas", "exact", "double", "float", "embree",
+    "embree_robust"))
 PLANE_WORDS = (("`fp24_paper`", "fp24_paper"), ("`fp24`", "fp24"),
                *((f"{width} bits", f"w{width}") for width in range(10, 25)))
 ONE_FIGURE = (("value", "value"), ("unit", "unit"), ("command", "command"))
@@ -140,6 +144,29 @@ TABLES = {
                       for kind in ("camera", "shadow")),
         "optional": (),
     },
+    "exact": {
+        "head": "scene, rays",
+        "columns": (("rays", "exact.*rays"), ("differing hits", "exact.*differing_hits"),
+                    ("24 bit wrong, %", "exact.*plain_wrong_percent"), ("rivals, %", "exact.*rivals_percent"),
+                    ("traced, %", "exact.*retested_percent"), ("clocks a ray", "exact.*plain_clocks"),
+                    ("exact", "exact.*clocks"), ("host, %", "exact.*host_time_percent")),
+        "rows": (*((f"{text}, {kind}", f"{key}.{kind}.") for text, key in EXACT_SCENES
+                   for kind in ("camera", "shadow", "hemisphere")), ("all", "")),
+        "optional": (),
+    },
+    "exact_total": {
+        "head": "`--exact` on four scenes",
+        "columns": ONE_FIGURE,
+        "rows": (
+            ("camera, shadow and hemisphere rays", "exact.rays"),
+            ("... whose hits are not those of double precision, bit by bit", "exact.differing_hits"),
+            ("... that the host traced in double precision", "exact.retested_percent"),
+            ("... for which it tested two triangles", "exact.rivals_percent"),
+            ("clocks a ray of the plain unit", "exact.plain_clocks"),
+            ("... of the exact one", "exact.clocks"),
+        ),
+        "optional": (),
+    },
     "skip_compared": {
         "head": "scene",
         "columns": (("triangles", "skip.*.triangles"),
@@ -201,6 +228,49 @@ TABLES = {
                     ("without slack: lost, %", "planes.*.bare_lost_percent"),
                     ("too much, %", "planes.*.bare_false_percent")),
         "rows": PLANE_WORDS,
+        "optional": (),
+    },
+    "holes": {
+        "head": "closed meshes",
+        "columns": ONE_FIGURE,
+        "rows": (
+            ("rays exactly through edges and vertices, and between", "holes.rays"),
+            ("... that escape: double precision", "holes.reference"),
+            ("... profile paper", "holes.paper"),
+            ("... profile raplas", "holes.raplas"),
+            ("... profile raplas, exact", "holes.exact"),
+        ),
+        "optional": (),
+    },
+    "stress": {
+        "head": "case",
+        "columns": tuple((f"{device}: {text}", f"stress.*.{device}.{key}")
+                         for device in ("reference", "paper", "raplas", "exact")
+                         for text, key in (("differ, %", "differing_percent"), ("break it", "broken"))),
+        "rows": "stress.*.raplas.differing_percent",
+        "optional": (),
+    },
+    "soak": {
+        "head": "decided, and none wrong",
+        "columns": ONE_FIGURE,
+        "rows": (
+            ("ray and triangle, profile paper", "soak.triangles_paper"),
+            ("... profile raplas", "soak.triangles_raplas"),
+            ("... certified", "soak.triangles_certified"),
+            ("plane and sphere, profile paper", "soak.spheres_paper"),
+            ("ray and sphere by its planes, profile raplas", "soak.spheres_raplas"),
+            ("all", "soak.decisions"),
+            ("wrong", "soak.wrong"),
+        ),
+        "optional": (),
+    },
+    "stress_total": {
+        "head": "catalogue",
+        "columns": ONE_FIGURE,
+        "rows": (
+            ("cases", "stress.cases"),
+            ("promised properties that failed, over all cases and devices", "stress.failed_properties"),
+        ),
         "optional": (),
     },
     "mutation": {

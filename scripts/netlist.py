@@ -45,17 +45,17 @@ DSP48 = {
     "vertex_grid": 2,
     "edge_setup": 2,
     "row_interval": 3,
-    "ray_solver": 66,
+    "ray_solver": 68,
     "ray_triangle": 70,
     "hit_queue": 4,
     "fp_add_fabric": 1,
     "fp_mul_fabric": 1,
-    "ray_solver_fabric": 33,
+    "ray_solver_fabric": 34,
     "hit_queue_fabric": 2,
     "intersection_unit": 166,
     "intersection_unit_paper": 166,
     "intersection_unit_2x2": 118,
-    "raplas_unit": 187,
+    "raplas_unit": 188,
 }
 FABRIC = ("EXPONENT_DSP=false",)  # exponents in fabric
 VARIANTS = {f"{unit}_fabric": (unit, FABRIC) for unit in ("fp_add", "fp_mul", "ray_solver", "hit_queue")}

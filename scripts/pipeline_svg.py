@@ -309,7 +309,7 @@ FIGURES = {
             "columns": ("logic", 210, 320, 125, 44, "column_selector"),
             "ray": ("memory", 40, 430, 150, 44, "Ray Memory", "4 banks"),
             "triangle": ("memory", 40, 494, 150, 44, "Triangle Memory"),
-            "solver": ("dsp", 250, 440, 160, 80, "ray_solver", "33 operations", "33 DSP48"),
+            "solver": ("dsp", 250, 440, 160, 80, "ray_solver", "34 operations", "34 DSP48"),
             "quotient": ("dsp", 250, 550, 160, 44, "depth_quotient", "1 DSP48"),
             "hits": ("dsp", 470, 440, 140, 80, "hit_queue", "nearest hit", "2 DSP48"),
             "result": ("memory", 680, 458, 140, 44, "Result Memory", "4 banks"),

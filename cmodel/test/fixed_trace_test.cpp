@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "possible_hits.hpp"
 #include "random_fixed_scenes.hpp"
 
 namespace raplas {
@@ -30,8 +31,9 @@ FixedTrace<F>::Results brute_force(const FixedSceneMemory<F>& scene, const Fixed
           continue;
         }
         const std::uint32_t q = depth_quotient(s.t, s.d);
-        if (q >= lines.z && q < pencil.limits.far && nearer(s.t, s.d, vertex.triangle, results[ray])) {
-          results[ray] = {true, vertex.triangle, s.t, s.d, s.u, s.v};
+        if (q >= lines.z && q < pencil.limits.far &&
+            nearer(s.t, s.d, vertex.triangle, results[ray].nearest)) {
+          results[ray].nearest = {true, vertex.triangle, s.t, s.d, s.u, s.v};
         }
       }
     }
@@ -49,7 +51,7 @@ void join_pieces(FixedSceneMemory<F>& scene) {
 void expect_same_hits(const FixedTrace<F>::Results& expected, const FixedTrace<F>::Results& seen,
                       bool any_hit) {
   for (std::size_t ray = 0; ray < expected.size(); ++ray) {
-    ASSERT_EQ(seen[ray].hit, expected[ray].hit) << "ray " << ray;
+    ASSERT_EQ(seen[ray].nearest.hit, expected[ray].nearest.hit) << "ray " << ray;
     if (!any_hit) {
       ASSERT_EQ(seen[ray], expected[ray]) << "ray " << ray;
     }
@@ -87,6 +89,47 @@ TEST(FixedTrace, SkippingChangesNoHit) {
   EXPECT_GT(hits, 10'000U);
   EXPECT_LT(all.pairs * 4, none.pairs) << "nothing is skipped";
   EXPECT_GT(none.strays, 0U) << "no case in which only the lines and depths of the triangle reject a hit";
+}
+
+TEST(FixedTrace, KeepsWhatMayBeNearestOfCertifiedHitsWhateverIsSkipped) {
+  FixedScenes<F> scenes(32);
+  std::uint64_t hits = 0;
+  std::uint64_t unsure = 0;
+  std::uint64_t rivals = 0;
+  std::uint64_t crowds = 0;
+  std::uint64_t hidden = 0;
+  for (int k = 0; k < 300; ++k) {
+    FixedSceneMemory<F> scene = scenes.scene(1 + scenes.below(120), 2 + scenes.below(5));
+    if (k % 4 == 3) {
+      join_pieces(scene);
+    }
+    const FixedPencilMemory<F> pencil =
+        scenes.certified(scenes.pencil(1 + scenes.below(16), 1 + scenes.below(16)));
+    const PossibleHits<F> expected(scene, pencil);
+    FixedPencilMemory<F> nearest = pencil;  // what an any-hit pencil is whose rays go on
+    nearest.limits.any_hit = false;
+    const PossibleHits<F> of_nearest(scene, nearest);
+    for (int off = -1; off < 10; ++off) {
+      const std::uint32_t random = off == 8 ? scenes.below(256) : off == 9 ? 255 : off < 0 ? 0 : 1U << off;
+      const auto on = [random](int skip) { return (random >> skip & 1U) == 0; };
+      const Skips skips{on(0), on(1), on(2), on(3), on(4), on(5), on(6), on(7)};
+      const auto results = FixedTrace<F>(scene, pencil, skips).results();
+      for (std::uint32_t ray = 0; ray < results.size(); ++ray) {
+        ASSERT_EQ((skips.ended ? expected : of_nearest).wrong(ray, results[ray]), "")
+            << "scene " << k << ", off " << off << ", ray " << ray;
+        hits += results[ray].nearest.hit ? 1U : 0U;
+        unsure += results[ray].unsure ? 1U : 0U;
+        rivals += results[ray].rival ? 1U : 0U;
+        crowds += results[ray].crowd ? 1U : 0U;
+      }
+    }
+    hidden += expected.hidden();
+  }
+  EXPECT_GT(hits, 50'000U);
+  EXPECT_GT(unsure, 5'000U);
+  EXPECT_GT(rivals, 5'000U);
+  EXPECT_GT(crowds, 1'000U);
+  EXPECT_LT(hidden * 5, hits) << "most are taken as hidden";
 }
 
 }  // namespace

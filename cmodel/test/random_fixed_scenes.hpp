@@ -45,7 +45,7 @@ FixedSceneMemory<F> moved(const FixedSceneMemory<F>& scene, const FixedPlaces& t
 template <typename F>
 class FixedScenes {
  public:
-  explicit FixedScenes(std::uint32_t seed) : random_(seed) {}
+  explicit FixedScenes(std::uint32_t seed) : random_(seed), bands_(seed) {}
 
   std::uint32_t below(std::uint32_t limit) { return static_cast<std::uint32_t>(random_() % limit); }
 
@@ -144,6 +144,13 @@ class FixedScenes {
     }
   }
 
+  /// Gives one of `share` pencils a band: its hits are certified.
+  FixedPencilMemory<F> certified(FixedPencilMemory<F> pencil, std::uint32_t share = 1) {
+    const auto band = std::exp2(std::uniform_real_distribution<double>(-14, -8)(bands_));
+    pencil.limits.band = bands_() % share == 0 ? number(band).bits() : 0;
+    return pencil;
+  }
+
   static TriangleWord<F> triangle(const std::array<FixedVec3, 3>& corners) {
     const auto vector = [](const FixedVec3& a, const FixedVec3& b) {
       return Vec3<F>{number((a[0] - b[0]) * 0x1p-17), number((a[1] - b[1]) * 0x1p-17),
@@ -239,6 +246,7 @@ class FixedScenes {
   }
 
   std::mt19937 random_;
+  std::mt19937 bands_;  // apart, so that the other numbers are the same with and without them
 };
 
 }  // namespace raplas

@@ -25,14 +25,14 @@ module nearest_hit (
   input [23:0] t_i, d_i,
   input [20:0] triangle_i,
   input [117:0] best_i,
-  output nearer_o, first_o
+  output nearer_o, tie_o, rough_tie_o, first_o
 );
   reg [2:0] nearer, first;
   always @(posedge clk_i) begin
     nearer <= {nearer[1:0], best_i[117]};
     first <= {first[1:0], best_i[116]};
   end
-  assign nearer_o = nearer[2], first_o = first[2];
+  assign nearer_o = nearer[2], tie_o = 0, rough_tie_o = 0, first_o = first[2];
 endmodule
 
 module miter (

@@ -1,6 +1,7 @@
 // raplas compare: the same picture by every device of this build.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
@@ -20,39 +21,38 @@ constexpr bool kWithRtl = true;
 constexpr bool kWithRtl = false;
 #endif
 
-/// A run with its picture in 8 bits and its hits as result words (none for the reference).
+/// A run with its picture in 8 bits and its hits.
 struct Entry {
   std::string name;
   DeviceRun run;
   std::vector<std::uint8_t> picture;
-  std::vector<HitRecord> hits;
+  std::vector<Hit> hits;
 };
 
 Entry trace(const CompareCommand& command, const Prepared& prepared, const std::string& name) {
   Entry entry;
   entry.name = name;
-  std::function<void(std::span<const Hit>)> sink;
-  if (name != "reference") {
-    sink = [&entry](std::span<const Hit> hits) {
-      for (const Hit& hit : hits) {
-        entry.hits.push_back(record_of(hit));
-      }
-    };
-  }
-  entry.run = run_device(prepared, command.settings, name, sink);
+  entry.run = run_device(prepared, command.settings, name, [&entry](std::span<const Hit> hits) {
+    entry.hits.insert(entry.hits.end(), hits.begin(), hits.end());
+  });
   entry.picture = to_8_bit(entry.run.rendering.image);
   return entry;
 }
 
 /// Bits in which the hits differ; a ray that only one of them has counts with all its bits.
-std::uint64_t differing_bits(const std::vector<HitRecord>& a, const std::vector<HitRecord>& b) {
+std::uint64_t differing_bits(const std::vector<Hit>& a, const std::vector<Hit>& b) {
   const std::size_t common = std::min(a.size(), b.size());
-  std::uint64_t bits =
-      static_cast<std::uint64_t>(ResultLayout::kBits) * (std::max(a.size(), b.size()) - common);
+  std::uint64_t bits = kHitBits * (std::max(a.size(), b.size()) - common);
   for (std::size_t k = 0; k < common; ++k) {
     bits += differing_bits(a[k], b[k]);
   }
   return bits;
+}
+
+/// The same rays hit something.
+bool same_hits(const std::vector<Hit>& a, const std::vector<Hit>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const Hit& x, const Hit& y) { return x.hit == y.hit; });
 }
 
 std::uint64_t differing_counters(const Counters& a, const Counters& b) {
@@ -148,6 +148,12 @@ int run(const CompareCommand& command) {
     equal = bits == 0 && counters == 0 && !last.hits.empty();
   } else {
     fmt::print("\nmodel against rtl: not compared, this build has no Verilator model\n");
+  }
+  if (settings.device.exact) {
+    // of any-hit rays, those to the light, only whether they hit
+    equal =
+        equal && pixels_off(last.picture, reference.picture, 0) == 0 && same_hits(model.hits, reference.hits);
+    fmt::print("exact against double precision: {}\n", equal ? "the same picture" : "NOT the same");
   }
   figure("render.hits_compared", kWithRtl ? last.hits.size() : 0, "hits");
   figure("render.pixels_off_reference", pixels_off(last.picture, reference.picture, 0), "pixels");

@@ -21,6 +21,9 @@ void drop_far_hits(const Pencil& pencil, std::span<Hit> hits) {
 }
 
 std::unique_ptr<IntersectionDevice> make_device(const std::string& name, const DeviceOptions& options) {
+  if (options.exact && options.profile == Profile::paper) {
+    throw std::runtime_error("profile paper has no certified hits: only profile raplas can be exact");
+  }
   if (name == "reference") {
     return make_reference_device();
   }

@@ -1,6 +1,6 @@
 // Device `model`: the clocked golden models.
 #include "device_factories.hpp"
-#include "fixed_device.hpp"
+#include "exact_device.hpp"
 #include "model_unit.hpp"
 #include "raplas/encode.hpp"
 
@@ -64,7 +64,7 @@ std::unique_ptr<IntersectionDevice> make_model_device(const DeviceOptions& optio
   if (options.profile == Profile::paper) {
     return std::make_unique<PaperModelDevice>(options);
   }
-  return std::make_unique<FixedDevice<ModelUnit>>(options);
+  return make_fixed_device<ModelUnit>(options);
 }
 
 }  // namespace raplas

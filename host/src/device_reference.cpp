@@ -1,4 +1,4 @@
-// Device `reference`: double precision.
+// The double-precision device.
 #include "device_factories.hpp"
 #include "reference_device.hpp"
 

@@ -7,7 +7,7 @@
 #include "Vintersection_unit.h"
 #include "Vraplas_unit.h"
 #include "device_factories.hpp"
-#include "fixed_device.hpp"
+#include "exact_device.hpp"
 #include "raplas/encode.hpp"
 
 namespace raplas {
@@ -53,13 +53,14 @@ class Verilated {
     unit_.write_i = 0;
   }
 
-  template <typename F>
-  [[nodiscard]] ResultWord<F> result() const {
-    PackedWord<ResultLayout::kBits> word{};
+  /// The port result_o as a ResultWord or a RayHits.
+  template <typename Word>
+  [[nodiscard]] Word result() const {
+    decltype(Word{}.pack()) word{};
     for (std::size_t i = 0; i < word.size(); ++i) {
       word[i] = unit_.result_o[i];
     }
-    return ResultWord<F>::unpack(word);
+    return Word::unpack(word);
   }
 
   Unit* operator->() { return &unit_; }
@@ -170,7 +171,7 @@ class PaperRtlDevice final : public IntersectionDevice {
       }
       clock();
       if (k + 1 >= kMemoryStages) {
-        hits.push_back(decode(unit_.result<F>()));
+        hits.push_back(decode(unit_.result<ResultWord<F>>()));
       }
     }
     return hits;
@@ -220,7 +221,7 @@ class RtlUnit {
   [[nodiscard]] LineMask hit_rows(std::size_t bank) const {
     return static_cast<LineMask>((*unit_)->hit_rows_o >> (bank * kMaxRows) & ((1U << kMaxRows) - 1));
   }
-  [[nodiscard]] ResultWord<Fp24> result() const { return unit_->result<Fp24>(); }
+  [[nodiscard]] RayHits<Fp24> result() const { return unit_->result<RayHits<Fp24>>(); }
   [[nodiscard]] EventCounters counters() const {
     EventCounters counters{};
     for (std::size_t k = 0; k < counters.size(); ++k) {
@@ -241,7 +242,7 @@ std::unique_ptr<IntersectionDevice> make_rtl_device(const DeviceOptions& options
   if (options.profile == Profile::paper) {
     return std::make_unique<PaperRtlDevice>(options);
   }
-  return std::make_unique<FixedDevice<RtlUnit>>(options);
+  return make_fixed_device<RtlUnit>(options);
 }
 
 }  // namespace raplas

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "certified_band.hpp"
 #include "raplas/encode.hpp"
 #include "raplas/strip.hpp"
 #include "triangle_points.hpp"
@@ -48,9 +49,31 @@ std::uint32_t root_up(std::int64_t square) {
   return static_cast<std::uint32_t>(root);
 }
 
+/// Certified hits: u' and v' of a triangle scaled to this, longest edge times its error coefficient, are off
+/// by at most kBand of docs/exact.md.
+double certified_scale(const glm::dvec3& v0, const glm::dvec3& e1, const glm::dvec3& e2) {
+  const double longest = std::max(glm::length(e1), glm::length(e2));
+  const double coefficient = kOriginError * (glm::length(v0) + 1) + kEdgeError * longest;
+  return kBandError / (longest * coefficient);
+}
+
+/// The triangle with V0 opposite its shortest edge, scaled; N is that of the triangle before it is rounded.
+TriangleWord<Fp24> certified_word(const Triangle& t) {
+  const std::array<glm::dvec3, 3> corners{t.v0, t.v0 + t.e1, t.v0 + t.e2};
+  const std::array<double, 3> opposite{glm::distance(t.e1, t.e2), glm::length(t.e2), glm::length(t.e1)};
+  const auto first =
+      static_cast<std::size_t>(std::min_element(opposite.begin(), opposite.end()) - opposite.begin());
+  const glm::dvec3 v0 = corners[first];
+  const glm::dvec3 e1 = corners[(first + 1) % 3] - v0;
+  const glm::dvec3 e2 = corners[(first + 2) % 3] - v0;
+  const double scale = certified_scale(v0, e1, e2);
+  return {encode<Fp24>(v0, "vertex coordinate"), encode<Fp24>(scale * e1, "edge"),
+          encode<Fp24>(scale * e2, "edge"), encode<Fp24>(scale * glm::cross(e1, e2), "normal")};
+}
+
 class SceneEncoder {
  public:
-  explicit SceneEncoder(const DeviceScene& scene) : scene_(scene) {}
+  SceneEncoder(const DeviceScene& scene, bool certify) : scene_(scene), certify_(certify) {}
 
   FixedScene run() {
     memory_.nodes.resize(scene_.nodes.size());
@@ -62,11 +85,16 @@ class SceneEncoder {
           fmt::format("{} vertex words, addresses reach {}", memory_.vertices.size(), kMaxWords));
     }
     memory_.triangles.reserve(scene_.triangles.size());
+    std::vector<std::uint32_t> uncertain;
     for (const Triangle& t : scene_.triangles) {
-      memory_.triangles.push_back(encode<Fp24>(t));
+      memory_.triangles.push_back(certify_ ? certified_word(t) : encode<Fp24>(t));
+      const glm::dvec3 n = glm::abs(decode(memory_.triangles.back().n));
+      if (certify_ && std::max({n.x, n.y, n.z}) < kLeastNormal) {
+        uncertain.push_back(static_cast<std::uint32_t>(memory_.triangles.size() - 1));
+      }
     }
     memory_.scene = {static_cast<std::uint32_t>(scene_.nodes.size()), scene_.root_count, scene_.root_first};
-    return {std::move(memory_), vertex_error_};
+    return {std::move(memory_), vertex_error_, std::move(uncertain)};
   }
 
  private:
@@ -141,7 +169,7 @@ class SceneEncoder {
       }
       same = points_.insert(points_.end(), {point, quantised(point)});
     }
-    const double error = glm::distance(value_of(same->vertex), stored);
+    const double error = glm::distance(value_of(same->vertex), certify_ ? point : stored);
     if (!(error < kMaxVertexError)) {
       fail(node, "a corner as stored lies far from its vertex");
     }
@@ -157,6 +185,7 @@ class SceneEncoder {
   };
 
   const DeviceScene& scene_;
+  bool certify_;
   FixedSceneMemory<Fp24> memory_;
   double vertex_error_ = 0;
   std::vector<Point> points_;             ///< of one leaf
@@ -165,6 +194,6 @@ class SceneEncoder {
 
 }  // namespace
 
-FixedScene encode_fixed(const DeviceScene& scene) { return SceneEncoder(scene).run(); }
+FixedScene encode_fixed(const DeviceScene& scene, bool certify) { return SceneEncoder(scene, certify).run(); }
 
 }  // namespace raplas

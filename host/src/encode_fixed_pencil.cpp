@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "certified_band.hpp"
 #include "raplas/encode.hpp"
 #include "raplas/encode_fixed.hpp"
 #include "raplas/scan_lines.hpp"
@@ -71,12 +72,13 @@ FixedVec3 lattice_normal(const glm::dvec3& unit) {
 
 class PencilEncoder {
  public:
-  PencilEncoder(const Pencil& pencil, double vertex_error) : pencil_(pencil), vertex_error_(vertex_error) {}
+  PencilEncoder(const Pencil& pencil, double vertex_error, bool certify)
+      : pencil_(pencil), vertex_error_(vertex_error), certify_(certify) {}
 
   FixedPencil run() {
     words_.pencil = {static_cast<std::uint32_t>(pencil_.rows), static_cast<std::uint32_t>(pencil_.columns),
                      encode<Fp24>(pencil_.origin, "pencil origin")};
-    origin_ = decode(words_.pencil.origin);
+    origin_ = certify_ ? pencil_.origin : decode(words_.pencil.origin);
     encode_rays();
     encode_lines();
     encode_depths();
@@ -84,6 +86,9 @@ class PencilEncoder {
     encode_grid();
     words_.limits.any_hit = pencil_.any_hit;
     words_.limits.far = far_code();
+    if (certify_) {
+      encode_band();
+    }
     return {words_, t_scale_};
   }
 
@@ -107,7 +112,7 @@ class PencilEncoder {
         const std::size_t ray = index(r, c);
         words_.rays[ray] = encode<Fp24>(unit / along, "ray direction");
         t_scale_[ray] = 1 / along;
-        const glm::dvec3 direction = decode(words_.rays[ray]);
+        const glm::dvec3 direction = certify_ ? unit / along : decode(words_.rays[ray]);
         // a hit whose quotient code is below far's has t < far (1 + 2^-8)
         const double last = std::min(last_inside(origin_, direction), pencil_.far * (1 + 0x1p-8));
         way_[ray] = last * direction;
@@ -296,6 +301,19 @@ class PencilEncoder {
     return most;
   }
 
+  /// Certified hits: the band, and far beyond what the quotient's code may be off by.
+  void encode_band() {
+    double longest = 0;
+    for (int r = 0; r < pencil_.rows; ++r) {
+      for (int c = 0; c < pencil_.columns; ++c) {
+        longest = std::max(longest, glm::length(directions_[index(r, c)]));
+      }
+    }
+    const double band = kRounding * longest * kBandError * kBandMargin;
+    words_.limits.band = Fp24::from_double_up(band, "error band").bits();
+    words_.limits.far = std::min(kNoBound, words_.limits.far + 1 + kDepthCodeError);
+  }
+
   static std::int64_t offset_of(double offset) {
     const double units = std::round(offset / kOffsetUnit);
     if (!(std::abs(units) < std::ldexp(1.0, kOffsetBits - 1))) {
@@ -314,9 +332,10 @@ class PencilEncoder {
 
   const Pencil& pencil_;
   double vertex_error_;
-  glm::dvec3 origin_{0};                           ///< as stored
+  bool certify_;
+  glm::dvec3 origin_{0};                           ///< as stored, or to certify as it is
   std::array<glm::dvec3, kMaxRays> way_{};         ///< from the origin to a ray's last point
-  std::array<glm::dvec3, kMaxRays> directions_{};  ///< as stored
+  std::array<glm::dvec3, kMaxRays> directions_{};  ///< likewise
   double error_ = 0;                               ///< farthest that a ray gets from one of its planes
   FixedPencilMemory<Fp24> words_;
   std::array<double, kMaxRays> t_scale_{};
@@ -324,8 +343,18 @@ class PencilEncoder {
 
 }  // namespace
 
-FixedPencil encode_fixed(const Pencil& pencil, double vertex_error) {
-  return PencilEncoder(pencil, vertex_error).run();
+FixedPencil encode_fixed(const Pencil& pencil, double vertex_error, bool certify) {
+  if (certify && !can_certify(pencil)) {
+    throw std::invalid_argument("hits of this pencil cannot be certified");
+  }
+  return PencilEncoder(pencil, vertex_error, certify).run();
+}
+
+bool can_certify(const Pencil& pencil) {
+  return glm::length(pencil.origin) <= kFarthestOrigin &&
+         std::all_of(pencil.directions.begin(), pencil.directions.end(), [&pencil](const glm::dvec3& unit) {
+           return glm::dot(pencil.axis, unit) * kLongestRay >= 1;
+         });
 }
 
 Hit decode_fixed(const ResultWord<Fp24>& word, const FixedPencil& pencil, std::size_t ray) {

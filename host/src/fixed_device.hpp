@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -34,8 +35,9 @@ class FixedDevice final : public IntersectionDevice {
   explicit FixedDevice(const DeviceOptions& options) : options_(options) {}
 
   void load(const DeviceScene& scene) override {
-    FixedScene words = encode_fixed(scene);
+    FixedScene words = encode_fixed(scene, options_.exact);
     vertex_error_ = words.vertex_error;
+    uncertain_ = std::move(words.uncertain);
     const FixedSceneMemory<Fp24>& memory = words.memory;
     check("spheres, the Sphere Memory holds", memory.nodes.size(), options_.sphere_depth);
     check("vertices, the Vertex Memory holds", memory.vertices.size(), 2 * options_.triangle_depth);
@@ -50,11 +52,32 @@ class FixedDevice final : public IntersectionDevice {
   }
 
   std::vector<std::vector<Hit>> trace(std::span<const Pencil> pencils) override {
-    std::vector<std::vector<Hit>> hits(pencils.size());
+    std::vector<std::vector<Hit>> hits;
+    hits.reserve(pencils.size());
+    for (const Pencil& pencil : pencils) {
+      hits.emplace_back(pencil.directions.size());
+    }
+    trace(pencils, [&hits](const RayWord& found) {
+      hits[found.pencil][found.ray] = decode_fixed(found.word.nearest, *found.words, found.place);
+    });
+    return hits;
+  }
+
+  /// What the unit says of a ray that may hit something.
+  struct RayWord {
+    std::size_t pencil;
+    std::size_t ray;
+    RayHits<Fp24> word;
+    const FixedPencil* words;
+    std::size_t place;  ///< of the ray in the bank
+  };
+
+  /// Traces and gives the words of rays in rows with a hit to `sink`; other rays hit nothing.
+  void trace(std::span<const Pencil> pencils, const std::function<void(const RayWord&)>& sink) {
     Progress at;
-    next_pencil(pencils, hits, at);
+    next_pencil(pencils, at);
     while (at.read < at.order.size()) {
-      clock(pencils, hits, at);
+      clock(pencils, sink, at);
     }
     sent_ = std::move(at.order);
     const EventCounters now = unit_.counters();
@@ -62,13 +85,14 @@ class FixedDevice final : public IntersectionDevice {
       counters_[k] += static_cast<std::uint32_t>(now[k] - last_counters_[k]);
     }
     last_counters_ = now;
-    return hits;
   }
 
   [[nodiscard]] Counters counters() const override { return counters_; }
   [[nodiscard]] std::uint64_t simulated_clocks() const override { return clocks_; }
   [[nodiscard]] std::uint64_t skipped_pencils() const override { return skipped_pencils_; }
   [[nodiscard]] Unit& unit() noexcept { return unit_; }
+  /// Triangles that the unit's certified hits don't hold for.
+  [[nodiscard]] const std::vector<std::uint32_t>& uncertain() const noexcept { return uncertain_; }
   /// The pencils of the last trace() that were not skipped, by index.
   [[nodiscard]] const std::vector<std::size_t>& sent() const noexcept { return sent_; }
 
@@ -106,12 +130,12 @@ class FixedDevice final : public IntersectionDevice {
     }
   }
 
-  void clock(std::span<const Pencil> pencils, std::vector<std::vector<Hit>>& hits, Progress& at) {
+  void clock(std::span<const Pencil> pencils, const std::function<void(const RayWord&)>& sink, Progress& at) {
     const std::size_t startable = at.written;
     if (at.written < at.order.size() && at.written - at.finished < kPencilBanks) {
-      write_word(pencils, hits, at);
+      write_word(pencils, at);
     }
-    at.answers.push_back(ask(pencils, hits, at));
+    at.answers.push_back(ask(pencils, at));
     const bool start = at.started < startable && at.started - at.asked < kPencilBanks;
     unit_.clock(start, at.started % kPencilBanks);
     ++clocks_;
@@ -126,8 +150,8 @@ class FixedDevice final : public IntersectionDevice {
     }
     if (at.answers.size() == kMemoryStages) {
       if (const auto& answer = at.answers.front()) {
-        hits[at.order[answer->pencil]][answer->ray] =
-            decode_fixed(unit_.result(), at.banks[answer->pencil - at.read], answer->place);
+        sink({at.order[answer->pencil], answer->ray, unit_.result(), &at.banks[answer->pencil - at.read],
+              answer->place});
       }
       at.answers.pop_front();
     }
@@ -139,14 +163,12 @@ class FixedDevice final : public IntersectionDevice {
   }
 
   /// Asks for the result of the next ray of the finished pencils whose row has a hit.
-  std::optional<Asked> ask(std::span<const Pencil> pencils, std::vector<std::vector<Hit>>& hits,
-                           Progress& at) {
+  std::optional<Asked> ask(std::span<const Pencil> pencils, Progress& at) {
     while (at.asked < at.finished) {
       const Pencil& pencil = pencils[at.order[at.asked]];
       const std::size_t bank = at.asked % kPencilBanks;
       const auto columns = static_cast<std::size_t>(pencil.columns);
       const std::size_t row = at.ray / columns;
-      hits[at.order[at.asked]].resize(pencil.directions.size());
       if (at.ray == pencil.directions.size()) {
         ++at.asked;
         at.ray = 0;
@@ -163,35 +185,35 @@ class FixedDevice final : public IntersectionDevice {
   }
 
   /// Encodes pencils up to the next one that meets a sphere of the root range; the others hit nothing.
-  void next_pencil(std::span<const Pencil> pencils, std::vector<std::vector<Hit>>& hits, Progress& at) {
+  void next_pencil(std::span<const Pencil> pencils, Progress& at) {
     while (at.encoded < pencils.size()) {
       const std::size_t index = at.encoded++;
-      const FixedPencil words = encode_fixed(pencils[index], vertex_error_);
+      const FixedPencil words = encode_fixed(pencils[index], vertex_error_, options_.exact);
       if (std::any_of(root_.begin(), root_.end(),
                       [&](const NodeWord& node) { return meets(words.memory, node); })) {
         at.order.push_back(index);
         at.banks.push_back(words);
         return;
       }
-      hits[index].resize(pencils[index].directions.size());
       ++skipped_pencils_;
     }
   }
 
-  void write_word(std::span<const Pencil> pencils, std::vector<std::vector<Hit>>& hits, Progress& at) {
+  void write_word(std::span<const Pencil> pencils, Progress& at) {
     const FixedPencilMemory<Fp24>& memory = at.banks.back().memory;
     unit_.write_pencil_word(memory, at.written % kPencilBanks, at.word);
     ++at.word;
     if (at.word == pencil_words(memory)) {
       at.word = 0;
       ++at.written;
-      next_pencil(pencils, hits, at);
+      next_pencil(pencils, at);
     }
   }
 
   DeviceOptions options_;
   Unit unit_;
   double vertex_error_ = 0;
+  std::vector<std::uint32_t> uncertain_;
   std::vector<NodeWord> root_;  ///< nodes of the root range
   std::uint64_t skipped_pencils_ = 0;
   std::vector<std::size_t> sent_;

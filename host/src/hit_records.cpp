@@ -1,20 +1,9 @@
 #include "hit_records.hpp"
 
 #include <bit>
-#include <stdexcept>
-
-#include "raplas/float.hpp"
 
 namespace raplas {
 namespace {
-
-std::uint32_t word_of(double value) {
-  const Fp24 word = Fp24::from_double(value, "hit value");
-  if (word.to_double() != value) {
-    throw std::range_error("a hit's value is not a number of the devices' format");
-  }
-  return word.bits();
-}
 
 void put(std::string& bytes, std::uint64_t value, int count) {
   for (int k = 0; k < count; ++k) {
@@ -24,16 +13,11 @@ void put(std::string& bytes, std::uint64_t value, int count) {
 
 }  // namespace
 
-HitRecord record_of(const Hit& hit) {
-  return {(hit.hit ? 1U << kIdBits : 0U) | hit.triangle, word_of(hit.t_scaled), word_of(hit.d),
-          word_of(hit.u_scaled), word_of(hit.v_scaled)};
-}
-
-std::uint64_t differing_bits(const HitRecord& a, const HitRecord& b) {
-  std::uint64_t bits = 0;
-  for (const std::uint32_t difference :
-       {a.hit_and_triangle ^ b.hit_and_triangle, a.t ^ b.t, a.d ^ b.d, a.u ^ b.u, a.v ^ b.v}) {
-    bits += static_cast<std::uint32_t>(std::popcount(difference));
+std::uint64_t differing_bits(const Hit& a, const Hit& b) {
+  const auto differing = [](auto x, auto y) { return static_cast<std::uint64_t>(std::popcount(x ^ y)); };
+  std::uint64_t bits = differing(a.triangle, b.triangle) + (a.hit == b.hit ? 0U : 1U);
+  for (double Hit::*const value : {&Hit::t_scaled, &Hit::d, &Hit::u_scaled, &Hit::v_scaled}) {
+    bits += differing(std::bit_cast<std::uint64_t>(a.*value), std::bit_cast<std::uint64_t>(b.*value));
   }
   return bits;
 }

@@ -1,4 +1,4 @@
-// Hits as the Result Memory holds them, for comparing and for dump files.
+// Hits compared bit by bit, and dump files of them.
 #pragma once
 
 #include <cstdint>
@@ -10,21 +10,11 @@
 
 namespace raplas {
 
-/// The fields of a result word.
-struct HitRecord {
-  std::uint32_t hit_and_triangle;  ///< bit kIdBits: hit; below: triangle ID
-  std::uint32_t t;
-  std::uint32_t d;
-  std::uint32_t u;
-  std::uint32_t v;
-};
+/// Number of bits in which two hits differ: hit, triangle, and t', d, u' and v' as doubles.
+[[nodiscard]] std::uint64_t differing_bits(const Hit& a, const Hit& b);
 
-/// The record of a hit of a 24-bit device, whose values are exact fp24 numbers. Throws std::range_error
-/// otherwise.
-[[nodiscard]] HitRecord record_of(const Hit& hit);
-
-/// Number of bits in which two records differ, 0 .. ResultLayout::kBits.
-[[nodiscard]] std::uint64_t differing_bits(const HitRecord& a, const HitRecord& b);
+/// Bits of a hit: more than differing_bits() can be.
+inline constexpr std::uint64_t kHitBits = 1 + 32 + 4 * 64;
 
 /// First line of a dump file; the records follow.
 inline constexpr std::string_view kHitFileHeader =

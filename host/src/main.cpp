@@ -23,6 +23,7 @@ struct CommandLine {
   int leaf = 4;
   std::string memories = "simulation";
   std::string json;
+  bool exact = false;
   bool quiet = false;
 };
 
@@ -51,6 +52,9 @@ void add_options(CLI::App& app, CommandLine& line) {
       ->capture_default_str();
   app.add_option("--structure", line.structure, "of the bounding spheres")
       ->check(CLI::IsMember({"flat", "tree"}));
+  app.add_flag(
+      "--exact", line.exact,
+      "the hits of double precision: what the device cannot decide in 24 bits is tested on the host");
   app.add_option("--memories", line.memories, "chip: 4096 triangles and 4096 spheres; simulation: 2^20 each")
       ->check(CLI::IsMember({"chip", "simulation"}))
       ->capture_default_str();
@@ -71,6 +75,7 @@ Settings resolve(const CommandLine& line) {
     settings.tree.longest_edge = kWholeTriangles;
   }
   settings.device.profile = paper ? Profile::paper : Profile::raplas;
+  settings.device.exact = line.exact;
   if (line.memories == "chip") {
     settings.device.sphere_depth = kChipDepth;
     settings.device.triangle_depth = kChipDepth;

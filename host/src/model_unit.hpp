@@ -31,15 +31,15 @@ class ModelUnit {
   }
   [[nodiscard]] std::uint32_t busy() const { return unit_->busy(); }
   [[nodiscard]] LineMask hit_rows(std::size_t bank) const { return unit_->hit_rows(bank); }
-  [[nodiscard]] ResultWord<Fp24> result() const { return results_.out(); }
+  [[nodiscard]] RayHits<Fp24> result() const { return results_.out(); }
   [[nodiscard]] EventCounters counters() const { return unit_->counters(); }
   [[nodiscard]] const RaplasUnit<Fp24>& model() const { return *unit_; }
 
  private:
   FixedSceneMemory<Fp24> scene_;
   std::unique_ptr<RaplasUnit<Fp24>> unit_;
-  ResultWord<Fp24> asked_;
-  Delay<ResultWord<Fp24>, kMemoryStages> results_;
+  RayHits<Fp24> asked_;
+  Delay<RayHits<Fp24>, kMemoryStages> results_;
 };
 
 }  // namespace raplas

@@ -34,6 +34,14 @@ nlohmann::ordered_json figures(const RenderCommand& command, const Prepared& pre
   } else {
     json["rays_per_cycle"] = nullptr;
   }
+  if (command.settings.device.exact) {
+    const Retests& retests = run.retests;
+    json["retests"] = {{"rays", retests.rays},
+                       {"hits", retests.hits},
+                       {"rivals", retests.rivals},
+                       {"traced", retests.traced},
+                       {"seconds", retests.seconds}};
+  }
   json["trace_seconds"] = stats.trace_seconds;
   json["seconds"] = run.seconds;
   return json;

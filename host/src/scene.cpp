@@ -4,15 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
 #include <stdexcept>
 
-#include "raplas/bounding_sphere.hpp"
-#include "triangle_points.hpp"
+#include "raplas/normalise.hpp"
 
 namespace raplas {
 namespace {
@@ -36,8 +34,6 @@ void transform(Mesh& mesh, const MeshPlacement& place) {
     std::fill(mesh.colours.begin(), mesh.colours.end(), *place.colour);
   }
 }
-
-bool has_no_area(const Triangle& t) { return glm::cross(t.e1, t.e2) == glm::dvec3(0); }
 
 /// Appends a mesh; throws if it is nothing but triangles without area.
 void append(Scene& scene, const Mesh& mesh, const std::filesystem::path& file) {
@@ -90,7 +86,7 @@ Scene from_bare_mesh(const std::filesystem::path& file) {
   return scene;
 }
 
-/// Maps everything to `(x - centre) * scale`.
+/// Maps everything to the unit ball.
 void normalise(Scene& scene) {
   const Camera& camera = scene.camera;
   const AreaLight& light = scene.light;
@@ -99,25 +95,15 @@ void normalise(Scene& scene) {
   for (const Triangle& t : scene.triangles) {
     points.insert(points.end(), {t.v0, t.v0 + t.e1, t.v0 + t.e2});
   }
-  const Ball ball = bounding_ball(points);
-  if (!(ball.radius > 0) || !std::isfinite(ball.radius)) {
-    throw std::runtime_error("the scene has no extent, or none that is finite");
-  }
-  const double scale = (1 - 1.0 / 64) / ball.radius;
-  const auto point = [&](const glm::dvec3& p) { return (p - ball.centre) * scale; };
-  scene.camera.eye = point(scene.camera.eye);
-  scene.camera.look_at = point(scene.camera.look_at);
-  scene.light.corner = point(scene.light.corner);
-  scene.light.edge_u *= scale;
-  scene.light.edge_v *= scale;
+  const Placement place = place_in_ball(points);
+  scene.camera.eye = place.point(scene.camera.eye);
+  scene.camera.look_at = place.point(scene.camera.look_at);
+  scene.light.corner = place.point(scene.light.corner);
+  scene.light.edge_u *= place.scale;
+  scene.light.edge_v *= place.scale;
   for (Triangle& t : scene.triangles) {
-    t = {point(t.v0), t.e1 * scale, t.e2 * scale};
+    t = place.triangle(t);
   }
-}
-
-/// No area, or a normal that is zero as the devices compute and store it?
-bool is_degenerate(const Triangle& t) {
-  return has_no_area(t) || as_stored(glm::cross(as_stored(t.e1), as_stored(t.e2))) == glm::dvec3(0);
 }
 
 void drop_degenerate(Scene& scene) {
@@ -143,10 +129,23 @@ double origin_bound(const Scene& scene) {
       bound = std::max(bound, glm::length(p));
     }
   }
-  return std::max(glm::length(scene.camera.eye), bound + kOriginOffset + 2.0 / 256);
+  bound += 2.0 / 256;
+  return std::max(glm::length(scene.camera.eye), bound + surface_offset(bound, scene.longest_edge));
+}
+
+double longest_edge(const std::vector<Triangle>& triangles) {
+  double longest = 0;
+  for (const Triangle& t : triangles) {
+    longest = std::max({longest, glm::length(t.e1), glm::length(t.e2), glm::distance(t.e1, t.e2)});
+  }
+  return longest;
 }
 
 }  // namespace
+
+double surface_offset(double origin_length, double longest_edge) {
+  return 0x1p-16 * std::max(2.5 + origin_length / 2, 3 * origin_length + 9 * longest_edge);
+}
 
 Scene load_scene(const std::filesystem::path& file) {
   const bool described = file.extension() == ".json";
@@ -160,6 +159,7 @@ Scene load_scene(const std::filesystem::path& file) {
   if (scene.triangles.empty()) {
     throw std::runtime_error(fmt::format("{}: no triangles with an area", file.string()));
   }
+  scene.longest_edge = longest_edge(scene.triangles);
   scene.max_origin = origin_bound(scene);
   return scene;
 }

@@ -54,6 +54,7 @@ DeviceRun run_device(const Prepared& prepared, const Settings& settings, const s
   DeviceRun run;
   run.rendering = render(prepared.scene, prepared.tree.source, *device, settings.render, hooks);
   run.counters = device->counters();
+  run.retests = device->retests();
   run.simulated_clocks = device->simulated_clocks();
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return run;

@@ -35,6 +35,7 @@ struct Prepared {
 struct DeviceRun {
   Rendering rendering;
   Counters counters{};
+  Retests retests;
   double seconds = 0;                  ///< of load and render
   std::uint64_t simulated_clocks = 0;  ///< IntersectionDevice::simulated_clocks()
 

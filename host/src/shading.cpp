@@ -6,7 +6,7 @@
 namespace raplas {
 
 SurfacePoint surface_point(const Triangle& triangle, const Surface& surface, const Hit& hit,
-                           const glm::dvec3& direction) {
+                           const glm::dvec3& direction, double longest_edge) {
   const double u = hit.u_scaled / hit.d;
   const double v = hit.v_scaled / hit.d;
   SurfacePoint point{};
@@ -22,17 +22,18 @@ SurfacePoint surface_point(const Triangle& triangle, const Surface& surface, con
     point.normal = -point.normal;
   }
   point.colour = surface.colour;
+  point.offset = surface_offset(glm::length(point.position), longest_edge);
   return point;
 }
 
-glm::dvec3 shadow_origin(const SurfacePoint& point) { return point.position + kOriginOffset * point.facing; }
+glm::dvec3 shadow_origin(const SurfacePoint& point) { return point.position + point.offset * point.facing; }
 
 glm::dvec3 light_normal(const AreaLight& light) {
   return glm::normalize(glm::cross(light.edge_u, light.edge_v));
 }
 
 bool may_be_lit(const SurfacePoint& point, const AreaLight& light) {
-  if (glm::dot(light_normal(light), point.position - light.corner) <= 2 * kOriginOffset) {
+  if (glm::dot(light_normal(light), point.position - light.corner) <= 2 * point.offset) {
     return false;
   }
   for (const double u : {0.0, 1.0}) {

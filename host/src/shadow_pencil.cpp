@@ -22,7 +22,8 @@ double pixel_noise(int x, int y, std::uint64_t salt) {
 
 SurfacePoint seen_point(const Scene& scene, std::uint32_t triangle, const Hit& hit,
                         const glm::dvec3& direction) {
-  return surface_point(scene.triangles[triangle], scene.surfaces[triangle], hit, direction);
+  return surface_point(scene.triangles[triangle], scene.surfaces[triangle], hit, direction,
+                       scene.longest_edge);
 }
 
 bool needs_shadow_rays(const SurfacePoint& point, const AreaLight& light) {

@@ -14,7 +14,7 @@
 #include "heat_map.hpp"
 #include "progress.hpp"
 #include "raplas/output_file.hpp"
-#include "shadow_pencil.hpp"
+#include "scene_pencils.hpp"
 #include "skip_measure.hpp"
 
 namespace raplas {
@@ -50,51 +50,6 @@ struct Measured {
   SkipSteps steps;
   StreamRun stream;
 };
-
-std::vector<Pencil> camera_pencils(const Scene& scene, const RenderOptions& options) {
-  const CameraFrame camera(scene.camera, options.width, options.height);
-  std::vector<Pencil> pencils;
-  for (int y = 0; y < options.height; y += kSide) {
-    for (int x = 0; x < options.width; x += kSide) {
-      pencils.push_back(
-          camera.pencil(x, y, std::min(kSide, options.width - x), std::min(kSide, options.height - y)));
-    }
-  }
-  return pencils;
-}
-
-/// Of each tile x tile pixels one, chosen by a fixed hash: its shadow pencil, if it needs one.
-std::vector<Pencil> shadow_pencils(const Prepared& prepared, const SkipCommand& command,
-                                   const Measured& camera) {
-  const Scene& scene = prepared.scene;
-  const RenderOptions& options = command.settings.render;
-  std::vector<Pencil> pencils;
-  for (int y0 = 0; y0 < options.height; y0 += command.tile) {
-    for (int x0 = 0; x0 < options.width; x0 += command.tile) {
-      const auto place = [&](int first, int end, std::uint64_t salt) {
-        const int size = std::min(command.tile, end - first);
-        return first + std::min(size - 1, static_cast<int>((pixel_noise(x0, y0, salt) + 0.5) * size));
-      };
-      const int x = place(x0, options.width, 3);
-      const int y = place(y0, options.height, 4);
-      const auto pencil =
-          static_cast<std::size_t>(y / kSide) * camera.in_row + static_cast<std::size_t>(x / kSide);
-      const Pencil& seen = camera.pencils[pencil];
-      const int id = y % kSide * seen.columns + x % kSide;
-      const auto ray = static_cast<std::size_t>(id);
-      const Hit& hit = camera.stream.hits[pencil][ray];
-      const glm::dvec3& direction = seen.directions[ray];
-      if (!hit.hit || sees_light(scene.light, scene.camera.eye, direction, hit.t())) {
-        continue;
-      }
-      const SurfacePoint point = seen_point(scene, prepared.tree.source[hit.triangle], hit, direction);
-      if (needs_shadow_rays(point, scene.light)) {
-        pencils.push_back(shadow_pencil(point, shadow_grid(scene.light, kSide, x, y)));
-      }
-    }
-  }
-  return pencils;
-}
 
 void measure(const Prepared& prepared, const SkipCommand& command, Measured& m) {
   const DeviceScene& scene = prepared.tree.scene;
@@ -306,13 +261,15 @@ int run(const SkipCommand& command) {
 
   Measured camera;
   camera.kind = "camera";
-  camera.pencils = camera_pencils(prepared.scene, settings.render);
+  camera.pencils = camera_pencils(prepared.scene, settings.render.width, settings.render.height);
   camera.in_row = static_cast<std::size_t>((settings.render.width + kSide - 1) / kSide);
   measure(prepared, command, camera);
   print_table(name, camera, triangles);
   Measured shadow;
   shadow.kind = "shadow";
-  shadow.pencils = shadow_pencils(prepared, command, camera);
+  shadow.pencils = shadow_pencils(
+      prepared.scene, seen_pixels(prepared.scene, prepared.tree.source, settings.render.width,
+                                  settings.render.height, command.tile, camera.pencils, camera.stream.hits));
   shadow.in_row = static_cast<std::size_t>((settings.render.width + command.tile - 1) / command.tile);
   if (!shadow.pencils.empty()) {
     measure(prepared, command, shadow);

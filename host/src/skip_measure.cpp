@@ -130,11 +130,11 @@ SkipSteps walk_steps(const FixedScene& scene, const Pencil& pencil, std::span<co
       continue;
     }
     for (std::size_t ray = 0; ray < rays; ++ray) {
-      compare(trace.results()[ray_id(ray)], first[ray_id(ray)]);
+      compare(trace.results()[ray_id(ray)].nearest, first[ray_id(ray)].nearest);
     }
   }
   for (std::size_t ray = 0; ray < rays; ++ray) {
-    compare(decode_fixed(first[ray_id(ray)], words, ray_id(ray)), expected[ray]);
+    compare(decode_fixed(first[ray_id(ray)].nearest, words, ray_id(ray)), expected[ray]);
   }
   return result;
 }
@@ -149,7 +149,7 @@ class ObservedUnit {
   void ask(std::size_t bank, std::size_t ray) { unit_.ask(bank, ray); }
   [[nodiscard]] std::uint32_t busy() const { return unit_.busy(); }
   [[nodiscard]] LineMask hit_rows(std::size_t bank) const { return unit_.hit_rows(bank); }
-  [[nodiscard]] ResultWord<Fp24> result() const { return unit_.result(); }
+  [[nodiscard]] RayHits<Fp24> result() const { return unit_.result(); }
   [[nodiscard]] EventCounters counters() const { return unit_.counters(); }
 
   void clock(bool start, std::size_t bank) {

@@ -183,6 +183,22 @@ TEST_F(Cli, ComparesTheDevicesOfThisBuild) {
   expect_error("compare gone.obj -o stdout", 1, "stdout: cannot be made a folder");
 }
 
+TEST_F(Cli, ExactPicturesAreThoseOfDoublePrecision) {
+  ASSERT_EQ(
+      raplas("compare " + kScene + " --exact --quiet --width 40 --height 40 --shadow 2 -o out --json c.json"),
+      0)
+      << folder_.read("stdout") << folder_.read("stderr");
+  EXPECT_EQ(json("c.json")["render.pixels_off_reference"]["value"], 0);
+  ASSERT_EQ(raplas("render " + kScene +
+                   " --exact --quiet --width 40 --height 40 --shadow 0 -o x.png --json r.json"),
+            0);
+  const auto retests = json("r.json")["retests"];
+  EXPECT_EQ(retests["rays"], 1600);
+  EXPECT_GT(retests["rivals"], 0);
+  EXPECT_LT(retests["traced"], 160) << "nothing is left to the unit";
+  expect_error("render " + kScene + " --exact --profile paper", 1, "profile paper has no certified hits");
+}
+
 TEST_F(Cli, MeasuresWhatIsSkipped) {
   ASSERT_EQ(raplas("skip " + kScene + " --quiet --width 40 --height 24 --name box -o maps --json s.json"), 0)
       << folder_.read("stdout") << folder_.read("stderr");

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -58,7 +59,7 @@ TEST_F(SceneFiles, NormalisesEverythingIntoTheUnitBall) {
   for (const Triangle& t : scene.triangles) {
     for (const glm::dvec3& p : {t.v0, t.v0 + t.e1, t.v0 + t.e2}) {
       farthest = std::max(farthest, glm::length(p));
-      EXPECT_LE(glm::length(p) + kOriginOffset, scene.max_origin);
+      EXPECT_LE(glm::length(p) + surface_offset(glm::length(p), scene.longest_edge), scene.max_origin);
     }
   }
   for (const double u : {0.0, 1.0}) {
@@ -71,6 +72,7 @@ TEST_F(SceneFiles, NormalisesEverythingIntoTheUnitBall) {
   EXPECT_GT(farthest, 0.9);
   EXPECT_LE(glm::length(scene.camera.eye), scene.max_origin);
   EXPECT_LE(scene.max_origin, 1);
+  EXPECT_NEAR(scene.longest_edge, std::sqrt(2.0) / 2 * glm::length(scene.light.edge_u), 1e-12);
   // One scale for all: the square's side and the light's edge keep their ratio of 1 to 2.
   EXPECT_NEAR(glm::length(scene.triangles[0].e1) * 2, glm::length(scene.light.edge_u), 1e-12);
 }

@@ -101,6 +101,22 @@ package raplas_constants is
   constant DEPTH_MARGIN : natural := 4;
   -- depth code: t / d is below the code that depth_quotient gives plus this
   constant QUOTIENT_ERROR : natural := 4;
+  -- certified hits: exponent field of the band of rays whose length is 1
+  constant BAND_EXPONENT : natural := 49;
+  -- certified hits: t' or d below 2^-ROUGH_SHIFT of N's largest component makes the depth rough
+  constant ROUGH_SHIFT : natural := 2;
+  -- certified hits: below 2^-UNSURE_SHIFT of it the depth isn't known
+  constant UNSURE_SHIFT : natural := 4;
+  -- certified hits: below 2^-BLIND_SHIFT of it the sign isn't known
+  constant BLIND_SHIFT : natural := 10;
+  -- certified hits: depths less than 3 * 2^-TIE_SHIFT of their power of two apart are a tie
+  constant TIE_SHIFT : natural := 8;
+  -- certified hits: the same of depths of which one is rough, 2^-ROUGH_TIE_SHIFT
+  constant ROUGH_TIE_SHIFT : natural := 4;
+  -- certified hits: depth codes by which a ray's bound lies beyond what QUOTIENT_ERROR asks for
+  constant BOUND_MARGIN : natural := 8;
+  -- certified hits: the same of a hit whose depth is rough
+  constant ROUGH_BOUND_MARGIN : natural := 32;
   -- pencils that the Plane, Ray and Result memories hold
   constant PENCIL_BANKS : natural := 4;
   -- PENCIL_BANKS = 2^2
@@ -224,6 +240,26 @@ package raplas_constants is
   function unpack_result(word : result_word_t) return result_t;
   function pack_result(fields : result_t) return result_word_t;
 
+  -- profile raplas: nearest hit of a ray, and what else it may hit; address = bank * 256 + ray ID
+  constant RAY_HITS_BITS : natural := 144;
+  subtype ray_hits_word_t is std_ulogic_vector(143 downto 0);
+  type ray_hits_t is record
+    hit : std_ulogic;
+    crowd : std_ulogic;
+    unsure : std_ulogic;
+    rough : std_ulogic;
+    rival : std_ulogic;
+    rival_rough : std_ulogic;
+    rival_triangle : std_ulogic_vector(20 downto 0);
+    triangle : std_ulogic_vector(20 downto 0);
+    t : fp24_t;
+    d : fp24_t;
+    u : fp24_t;
+    v : fp24_t;
+  end record;
+  function unpack_ray_hits(word : ray_hits_word_t) return ray_hits_t;
+  function pack_ray_hits(fields : ray_hits_t) return ray_hits_word_t;
+
   -- sphere in fixed point; children first .. first+count-1: vertices in a leaf, else nodes
   constant NODE_BITS : natural := 101;
   subtype node_word_t is std_ulogic_vector(100 downto 0);
@@ -265,10 +301,11 @@ package raplas_constants is
   function unpack_fixed_plane(word : fixed_plane_word_t) return fixed_plane_t;
   function pack_fixed_plane(fields : fixed_plane_t) return fixed_plane_word_t;
 
-  -- register: any hit; grid of scan lines; error of the planes; first depth too far; address = bank
-  constant LIMITS_BITS : natural := 46;
-  subtype limits_word_t is std_ulogic_vector(45 downto 0);
+  -- register: band of certified hits; any hit; scan lines; slack; first far depth; address = bank
+  constant LIMITS_BITS : natural := 70;
+  subtype limits_word_t is std_ulogic_vector(69 downto 0);
   type limits_t is record
+    band : fp24_t;
     any_hit : std_ulogic;
     scale : std_ulogic_vector(4 downto 0);
     least : std_ulogic_vector(4 downto 0);
@@ -426,6 +463,31 @@ package body raplas_constants is
       & fields.u & fields.v;
   end function pack_result;
 
+  function unpack_ray_hits(word : ray_hits_word_t) return ray_hits_t is
+    variable fields_v : ray_hits_t;
+  begin
+    fields_v.hit := word(143);
+    fields_v.crowd := word(142);
+    fields_v.unsure := word(141);
+    fields_v.rough := word(140);
+    fields_v.rival := word(139);
+    fields_v.rival_rough := word(138);
+    fields_v.rival_triangle := word(137 downto 117);
+    fields_v.triangle := word(116 downto 96);
+    fields_v.t := word(95 downto 72);
+    fields_v.d := word(71 downto 48);
+    fields_v.u := word(47 downto 24);
+    fields_v.v := word(23 downto 0);
+    return fields_v;
+  end function unpack_ray_hits;
+
+  function pack_ray_hits(fields : ray_hits_t) return ray_hits_word_t is
+  begin
+    return fields.hit & fields.crowd & fields.unsure & fields.rough
+      & fields.rival & fields.rival_rough & fields.rival_triangle & fields.triangle
+      & fields.t & fields.d & fields.u & fields.v;
+  end function pack_ray_hits;
+
   function unpack_node(word : node_word_t) return node_t is
     variable fields_v : node_t;
   begin
@@ -481,6 +543,7 @@ package body raplas_constants is
   function unpack_limits(word : limits_word_t) return limits_t is
     variable fields_v : limits_t;
   begin
+    fields_v.band := word(69 downto 46);
     fields_v.any_hit := word(45);
     fields_v.scale := word(44 downto 40);
     fields_v.least := word(39 downto 35);
@@ -492,8 +555,8 @@ package body raplas_constants is
 
   function pack_limits(fields : limits_t) return limits_word_t is
   begin
-    return fields.any_hit & fields.scale & fields.least & fields.error
-      & fields.slack & fields.far;
+    return fields.band & fields.any_hit & fields.scale & fields.least
+      & fields.error & fields.slack & fields.far;
   end function pack_limits;
 
 end package body raplas_constants;

@@ -2,9 +2,9 @@
 -- result_memory - the nearest hit so far of each ray, PENCIL_BANKS banks
 -- ----------------------------------------------------------------------------
 --   @2  word of the ray asked for, at both read ports
--- The hit bits live in a small memory of their own, a word for each row, which counts
--- from the row's first write on; a register for each row tells that. clear_i empties
--- a bank at once.
+-- The top bits of the words, the hit bits, live in a small memory of their own, a word
+-- for each row, which counts from the row's first write on; a register for each row
+-- tells that. clear_i empties a bank at once.
 -- model: cmodel/include/raplas/intersection_unit.hpp     tests: tb/unit/result_memory
 -- ============================================================================
 library ieee;
@@ -14,6 +14,9 @@ library raplas;
 use raplas.raplas_constants.all;
 
 entity result_memory is
+  generic (
+    WIDTH : positive := RESULT_BITS   -- of a word
+  );
   port (
     clk_i        : in  std_ulogic;
     clear_i      : in  std_ulogic;                                    -- no ray of it has a hit
@@ -21,12 +24,12 @@ entity result_memory is
     write_i      : in  std_ulogic;
     write_bank_i : in  std_ulogic_vector(BANK_BITS - 1 downto 0);     -- not the one that is cleared
     write_ray_i  : in  std_ulogic_vector(2 * LINE_BITS - 1 downto 0);
-    write_data_i : in  result_word_t;                                 -- its hit bit counts as 1
+    write_data_i : in  std_ulogic_vector(WIDTH - 1 downto 0);         -- its hit bit counts as 1
     best_bank_i  : in  std_ulogic_vector(BANK_BITS - 1 downto 0);
     best_ray_i   : in  std_ulogic_vector(2 * LINE_BITS - 1 downto 0);
-    best_o       : out result_word_t;                                 -- MEMORY_STAGES later
+    best_o       : out std_ulogic_vector(WIDTH - 1 downto 0);         -- MEMORY_STAGES later
     host_ray_i   : in  std_ulogic_vector(BANK_BITS + 2 * LINE_BITS - 1 downto 0);   -- bank, ray
-    host_data_o  : out result_word_t;                                 -- MEMORY_STAGES later
+    host_data_o  : out std_ulogic_vector(WIDTH - 1 downto 0);         -- MEMORY_STAGES later
     hit_rows_o   : out std_ulogic_vector(PENCIL_BANKS * MAX_ROWS - 1 downto 0)
                     -- bank b, row r at b * MAX_ROWS + r: a ray of it has a hit
   );
@@ -34,7 +37,7 @@ end entity result_memory;
 
 architecture rtl of result_memory is
 
-  constant DATA_BITS    : natural := RESULT_BITS - 1;
+  constant DATA_BITS    : natural := WIDTH - 1;
   constant ADDRESS_BITS : natural := BANK_BITS + 2 * LINE_BITS;
   subtype ray_address_t is std_ulogic_vector(ADDRESS_BITS - 1 downto 0);
   subtype data_t is std_ulogic_vector(DATA_BITS - 1 downto 0);

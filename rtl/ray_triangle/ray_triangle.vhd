@@ -59,7 +59,7 @@ begin
 
   -- s26
   solver_i : entity raplas.ray_solver
-    generic map (GUARD_BITS => GUARD_BITS)
+    generic map (GUARD_BITS => GUARD_BITS, CERTIFY => false)
     port map (
       clk_i       => clk_i,
       rst_i       => rst_i,
@@ -67,10 +67,13 @@ begin
       triangle_i  => triangle_i,
       direction_i => direction_i,
       origin_i    => origin_i,
+      band_i      => (others => '0'),
       t_s22_o     => open,
       d_s22_o     => open,
       valid_o     => event_s26(1),
       hit_o       => event_s26(0),
+      rough_o     => open,
+      unsure_o    => open,
       t_o         => solution_s26(4 * FP_BITS - 1 downto 3 * FP_BITS),
       d_o         => solution_s26(3 * FP_BITS - 1 downto 2 * FP_BITS),
       u_o         => solution_s26(2 * FP_BITS - 1 downto FP_BITS),
@@ -86,6 +89,8 @@ begin
       triangle_i => pair_s26(ID_WIDTH - 1 downto 2 * LINE_BITS),
       best_i     => best_i,
       nearer_o   => nearer,
+      tie_o      => open,
+      rough_tie_o => open,
       first_o    => first
     );
 

@@ -8,7 +8,8 @@
 --   @28  hit? t', d, u', v'                      ray_solver; depth_quotient
 --        -> hit_queue -> Result memory, ray_bounds
 -- A pair counts as a hit if Moeller's test says so and its depth code is neither
--- less than that of the triangle's nearest point nor too far for the pencil.
+-- less than that of the triangle's nearest point nor too far for the pencil; a
+-- certified one unless its depth is known and too far.
 -- model: cmodel/include/raplas/raplas_unit.hpp     tests: tb/integration/raplas_unit
 -- ============================================================================
 library ieee;
@@ -16,6 +17,7 @@ use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 library raplas;
 use raplas.raplas_constants.all;
+use raplas.fp24_pkg.all;
 use raplas.pair_selection_pkg.all;
 
 entity pair_half is
@@ -32,7 +34,7 @@ entity pair_half is
     address_i        : in  std_ulogic_vector(ID_BITS - 1 downto 0);
     data_i           : in  std_ulogic_vector(TRIANGLE_BITS - 1 downto 0);
     result_ray_i     : in  std_ulogic_vector(BANK_BITS + 2 * LINE_BITS - 1 downto 0);
-    result_o         : out result_word_t;                           -- MEMORY_STAGES later
+    result_o         : out ray_hits_word_t;                         -- MEMORY_STAGES later
     hit_rows_o       : out std_ulogic_vector(PENCIL_BANKS * MAX_ROWS - 1 downto 0);
     -- registers of all banks, bank k in the k-th place from the low end
     pencils_i        : in  std_ulogic_vector(PENCIL_BANKS * PENCIL_BITS - 1 downto 0);
@@ -61,7 +63,7 @@ entity pair_half is
     first_hit_o      : out std_ulogic;                              -- a ray has its first hit
     stored_o         : out std_ulogic;
     stored_ray_o     : out std_ulogic_vector(2 * LINE_BITS - 1 downto 0);
-    stored_result_o  : out result_word_t
+    stored_result_o  : out ray_hits_word_t
   );
 end entity pair_half;
 
@@ -70,7 +72,6 @@ architecture rtl of pair_half is
   constant SOLVER_STAGES : positive := 2 * MUL_STAGES + 5 * ADD_STAGES;   -- 26
   constant PAIR_BITS : positive := BANK_BITS + ID_BITS + DEPTH_BITS + 2 * LINE_BITS;
   constant VECTOR_BITS : positive := 3 * FP_BITS;
-  constant NO_BOUND  : positive := 2 ** DEPTH_BITS - 1;
 
   subtype ray_id_t is std_ulogic_vector(2 * LINE_BITS - 1 downto 0);
   subtype id_t is std_ulogic_vector(ID_BITS - 1 downto 0);
@@ -105,9 +106,11 @@ architecture rtl of pair_half is
   signal bank_s2, bank_s28     : bank_t;
   signal pencil                : pencil_t;
   signal origin                : std_ulogic_vector(VECTOR_BITS - 1 downto 0);
+  signal band                  : fp24_t;
   signal limits                : limits_t;
   -- @28
-  signal solver_valid, solver_hit, hit : std_ulogic;
+  signal solver_valid, solver_hit, solver_unsure : std_ulogic;
+  signal hit, certify, rough, unsure, ends       : std_ulogic;
   signal t, d, u, v            : fp24_t;
   signal t_early, d_early      : fp24_t;     -- @24
   signal quotient              : depth_t;
@@ -115,8 +118,9 @@ architecture rtl of pair_half is
   -- results
   signal best_bank, stored_bank : bank_t;
   signal best_ray, stored_ray  : ray_id_t;
-  signal best, stored_result   : result_word_t;
+  signal best, stored_result   : ray_hits_word_t;
   signal stored, first_hit     : std_ulogic;
+  signal stored_bounds         : std_ulogic;
   signal stored_bound          : depth_t;
   signal hit_rows              : std_ulogic_vector(PENCIL_BANKS * MAX_ROWS - 1 downto 0);
   signal stored_pencil         : pencil_t;
@@ -226,7 +230,7 @@ begin
       clear_rows_i      => clear_rows_i,
       clear_far_i       => clear_far_i,
       hit_rows_i        => hit_rows,
-      update_i          => stored,
+      update_i          => stored_bounds,
       update_bank_i     => stored_bank,
       update_columns_i  => stored_pencil.columns,
       update_far_i      => stored_limits.far,
@@ -302,6 +306,7 @@ begin
       end if;
       if k = 0 or unsigned(bank_s2) = k then
         pencil <= pencil_v;
+        band   <= limits_v.band;
       end if;
       if k = 0 or unsigned(bank_s28) = k then
         limits <= limits_v;
@@ -324,12 +329,15 @@ begin
       triangle_i  => triangle_word,
       direction_i => ray_word,
       origin_i    => origin,
+      band_i      => band,
       valid_o     => solver_valid,
       hit_o       => solver_hit,
       t_o         => t,
       d_o         => d,
       u_o         => u,
       v_o         => v,
+      rough_o     => rough,
+      unsure_o    => solver_unsure,
       t_s22_o     => t_early,
       d_s22_o     => d_early
     );
@@ -337,20 +345,36 @@ begin
   quotient_i : entity raplas.depth_quotient
     port map (clk_i => clk_i, t_i => t_early, d_i => d_early, q_o => quotient);
 
-  valid_hit_p : process (solver_hit, quotient, limits, pair_s28)
-    variable z_v : depth_t;
+  certify <= '0' when is_zero(limits.band) else '1';
+  ends    <= certify and limits.any_hit;   -- whichever hits come first will do
+  unsure  <= solver_unsure or ends;
+
+  valid_hit_p : process (solver_hit, solver_unsure, quotient, limits, certify, rough, unsure,
+                         pair_s28)
+    variable z_v     : depth_t;
+    variable bound_v : unsigned(DEPTH_BITS downto 0);
   begin
     z_v := pair_s28(2 * LINE_BITS + DEPTH_BITS - 1 downto 2 * LINE_BITS);
     hit <= '0';
-    if unsigned(z_v) <= unsigned(quotient) and unsigned(quotient) < unsigned(limits.far) then
+    if solver_unsure = '1'
+       or ((certify = '1' or unsigned(z_v) <= unsigned(quotient))
+           and unsigned(quotient) < unsigned(limits.far)) then
       hit <= solver_hit;
     end if;
-    if limits.any_hit = '1' then
+    bound_v := unsigned('0' & quotient) + QUOTIENT_ERROR;
+    if certify = '1' then
+      bound_v := unsigned('0' & quotient) + QUOTIENT_ERROR + BOUND_MARGIN;
+      if rough = '1' then
+        bound_v := unsigned('0' & quotient) + QUOTIENT_ERROR + ROUGH_BOUND_MARGIN;
+      end if;
+    end if;
+    bound <= std_ulogic_vector(bound_v(DEPTH_BITS - 1 downto 0));
+    if unsure = '1' then
+      bound <= limits.far;
+    elsif limits.any_hit = '1' then
       bound <= (others => '0');
-    elsif unsigned(quotient) > NO_BOUND - QUOTIENT_ERROR then
-      bound <= std_ulogic_vector(to_unsigned(NO_BOUND, DEPTH_BITS));
-    else
-      bound <= std_ulogic_vector(unsigned(quotient) + QUOTIENT_ERROR);
+    elsif bound_v(DEPTH_BITS) = '1' then
+      bound <= (others => '1');
     end if;
   end process valid_hit_p;
 
@@ -370,6 +394,10 @@ begin
       u_i          => u,
       v_i          => v,
       bound_i      => bound,
+      certify_i    => certify,
+      rough_i      => rough,
+      unsure_i     => unsure,
+      ends_i       => ends,
       stall_o      => stall,
       best_bank_o  => best_bank,
       best_ray_o   => best_ray,
@@ -379,12 +407,14 @@ begin
       ray_o        => stored_ray,
       result_o     => stored_result,
       first_o      => first_hit,
+      bounds_o     => stored_bounds,
       bound_o      => stored_bound,
       done_o       => done_o,
       done_bank_o  => done_bank_o
     );
 
   result_memory_i : entity raplas.result_memory
+    generic map (WIDTH => RAY_HITS_BITS)
     port map (
       clk_i        => clk_i,
       clear_i      => clear_i,

@@ -33,17 +33,35 @@ inline Vector cross(const Vector& a, const Vector& b) {
   return result;
 }
 
-inline Solution<F> solve_by_oracle(const Vector& v0, const Vector& e1, const Vector& e2, const Vector& n,
-                                   const Vector& o, const Vector& d) {
-  const Vector t{subtract(v0[0], o[0]), subtract(v0[1], o[1]), subtract(v0[2], o[2])};
-  const Vector dxt = cross(d, t);
-  const std::uint32_t nd = dot(n, d);
+/// A triangle and a ray.
+struct Pair {
+  Vector v0{};
+  Vector e1{};
+  Vector e2{};
+  Vector n{};
+  Vector o{};
+  Vector d{};
+
+  [[nodiscard]] TriangleWord<F> triangle() const { return {vector(v0), vector(e1), vector(e2), vector(n)}; }
+  [[nodiscard]] Vec3<F> origin() const { return vector(o); }
+  [[nodiscard]] Vec3<F> direction() const { return vector(d); }
+
+ private:
+  static Vec3<F> vector(const Vector& v) {
+    return {F::from_bits(v[0]), F::from_bits(v[1]), F::from_bits(v[2])};
+  }
+};
+
+inline Solution<F> solve_by_oracle(const Pair& p) {
+  const Vector t{subtract(p.v0[0], p.o[0]), subtract(p.v0[1], p.o[1]), subtract(p.v0[2], p.o[2])};
+  const Vector dxt = cross(p.d, t);
+  const std::uint32_t nd = dot(p.n, p.d);
   const std::uint32_t sign = nd & 0x800000U;
   const auto signed_by = [sign](std::uint32_t x) { return (x >> 16 & 127) == 0 ? 0U : x ^ sign; };
-  const std::uint32_t tt = signed_by(dot(n, t));
+  const std::uint32_t tt = signed_by(dot(p.n, t));
   const std::uint32_t dd = signed_by(nd);
-  const std::uint32_t uu = signed_by(oracle::negate(dot(dxt, e2)));
-  const std::uint32_t vv = signed_by(dot(dxt, e1));
+  const std::uint32_t uu = signed_by(oracle::negate(dot(dxt, p.e2)));
+  const std::uint32_t vv = signed_by(dot(dxt, p.e1));
   const auto real = [](std::uint32_t x) { return oracle::Real(x); };
   const bool hit = mpfr_sgn(real(tt).get()) > 0 && mpfr_sgn(real(dd).get()) > 0 &&
                    mpfr_sgn(real(uu).get()) >= 0 && mpfr_sgn(real(vv).get()) >= 0 &&
@@ -51,8 +69,8 @@ inline Solution<F> solve_by_oracle(const Vector& v0, const Vector& e1, const Vec
   return {hit, F::from_bits(tt), F::from_bits(dd), F::from_bits(uu), F::from_bits(vv)};
 }
 
-/// Puts a pair on the inputs, four kinds of triangles in turn, and solves it.
-inline Solution<F> apply_pair(OperandPairs& pairs, int k) {
+/// Four kinds of triangles in turn.
+inline Pair some_pair(OperandPairs& pairs, int k) {
   const auto number = [&](int low, int high) { return pairs.word(63 + pairs.between(low, high)); };
   const auto vector = [&](int low, int high) {
     return Vector{number(low, high), number(low, high), number(low, high)};
@@ -87,14 +105,14 @@ inline Solution<F> apply_pair(OperandPairs& pairs, int k) {
       o[i] = Fp24::from_double(point - s * value(d[i])).bits();
     }
   }
-  const Vector n = cross(e1, e2);
-  const auto vec = [](const Vector& v) {
-    return Vec3<F>{F::from_bits(v[0]), F::from_bits(v[1]), F::from_bits(v[2])};
-  };
-  dut().set(dut().port("triangle_i"), TriangleWord<F>{vec(v0), vec(e1), vec(e2), vec(n)}.pack());
-  dut().set(dut().port("direction_i"), pack_ray(vec(d)));
-  dut().set(dut().port("origin_i"), pack_ray(vec(o)));
-  return solve_by_oracle(v0, e1, e2, n, o, d);
+  return {v0, e1, e2, cross(e1, e2), o, d};
+}
+
+/// Puts a pair on the inputs.
+inline void apply(const Pair& p) {
+  dut().set(dut().port("triangle_i"), p.triangle().pack());
+  dut().set(dut().port("direction_i"), pack_ray(p.direction()));
+  dut().set(dut().port("origin_i"), pack_ray(p.origin()));
 }
 
 }  // namespace raplas

@@ -100,6 +100,22 @@ inline constexpr int kDepthCodeStages = 2;
 inline constexpr int kDepthMargin = 4;
 /// depth code: t / d is below the code that depth_quotient gives plus this
 inline constexpr int kQuotientError = 4;
+/// certified hits: exponent field of the band of rays whose length is 1
+inline constexpr int kBandExponent = 49;
+/// certified hits: t' or d below 2^-ROUGH_SHIFT of N's largest component makes the depth rough
+inline constexpr int kRoughShift = 2;
+/// certified hits: below 2^-UNSURE_SHIFT of it the depth isn't known
+inline constexpr int kUnsureShift = 4;
+/// certified hits: below 2^-BLIND_SHIFT of it the sign isn't known
+inline constexpr int kBlindShift = 10;
+/// certified hits: depths less than 3 * 2^-TIE_SHIFT of their power of two apart are a tie
+inline constexpr int kTieShift = 8;
+/// certified hits: the same of depths of which one is rough, 2^-ROUGH_TIE_SHIFT
+inline constexpr int kRoughTieShift = 4;
+/// certified hits: depth codes by which a ray's bound lies beyond what QUOTIENT_ERROR asks for
+inline constexpr int kBoundMargin = 8;
+/// certified hits: the same of a hit whose depth is rough
+inline constexpr int kRoughBoundMargin = 32;
 /// pencils that the Plane, Ray and Result memories hold
 inline constexpr int kPencilBanks = 4;
 /// PENCIL_BANKS = 2^2
@@ -206,6 +222,23 @@ struct ResultLayout {
   static constexpr Field v{0, 24};
 };
 
+/// profile raplas: nearest hit of a ray, and what else it may hit; address = bank * 256 + ray ID
+struct RayHitsLayout {
+  static constexpr int kBits = 144;
+  static constexpr Field hit{143, 1};
+  static constexpr Field crowd{142, 1};
+  static constexpr Field unsure{141, 1};
+  static constexpr Field rough{140, 1};
+  static constexpr Field rival{139, 1};
+  static constexpr Field rival_rough{138, 1};
+  static constexpr Field rival_triangle{117, 21};
+  static constexpr Field triangle{96, 21};
+  static constexpr Field t{72, 24};
+  static constexpr Field d{48, 24};
+  static constexpr Field u{24, 24};
+  static constexpr Field v{0, 24};
+};
+
 /// sphere in fixed point; children first .. first+count-1: vertices in a leaf, else nodes
 struct NodeLayout {
   static constexpr int kBits = 101;
@@ -238,9 +271,10 @@ struct FixedPlaneLayout {
   static constexpr Field p{0, 36};
 };
 
-/// register: any hit; grid of scan lines; error of the planes; first depth too far; address = bank
+/// register: band of certified hits; any hit; scan lines; slack; first far depth; address = bank
 struct LimitsLayout {
-  static constexpr int kBits = 46;
+  static constexpr int kBits = 70;
+  static constexpr Field band{46, 24};
   static constexpr Field any_hit{45, 1};
   static constexpr Field scale{40, 5};
   static constexpr Field least{35, 5};

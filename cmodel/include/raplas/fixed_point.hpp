@@ -142,8 +142,9 @@ struct CrossedLines {
 inline constexpr std::uint32_t kNoBound = (1U << kDepthBits) - 1;
 
 /// What a hit with quotient code `q` leaves of its ray: objects at this depth code or beyond are hidden.
-[[nodiscard]] constexpr std::uint32_t bound_of(std::uint32_t q) noexcept {
-  return std::min(q + std::uint32_t{kQuotientError}, kNoBound);
+/// `more`: of certified hits, depth codes beyond that.
+[[nodiscard]] constexpr std::uint32_t bound_of(std::uint32_t q, int more = 0) noexcept {
+  return std::min(q + static_cast<std::uint32_t>(kQuotientError + more), kNoBound);
 }
 
 /// The bounds of 16 rays, or of 16 rows: only objects with a smaller depth code matter.
@@ -212,6 +213,7 @@ inline constexpr std::uint32_t kNoGrid = (1U << kGridExponentBits) - 1;
 
 /// The register beside the pencil word.
 struct LimitsWord {
+  std::uint32_t band = 0;         ///< bits of a number: certified hits' error of u', v' and d - u' - v', or 0
   bool any_hit = false;           ///< a ray's first hit ends it
   std::uint32_t slack = 0;        ///< in units of 2^-kCoordinateFraction
   std::uint32_t far = 0;          ///< only hits with a smaller depth code count
@@ -221,6 +223,7 @@ struct LimitsWord {
 
   [[nodiscard]] PackedWord<LimitsLayout::kBits> pack() const noexcept {
     PackedWord<LimitsLayout::kBits> word{};
+    insert(word, LimitsLayout::band, band);
     insert(word, LimitsLayout::any_hit, any_hit ? 1 : 0);
     insert(word, LimitsLayout::scale, scale);
     insert(word, LimitsLayout::least, least);

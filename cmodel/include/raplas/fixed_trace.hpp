@@ -32,6 +32,26 @@ struct FixedPencilMemory {
   std::array<Vec3<F>, kMaxRays> rays;  ///< ray (r, c) at r * kMaxColumns + c
 };
 
+/// Whether a solved pair of a piece at depth code `z` counts, and what it is to its ray.
+template <typename F>
+struct CountedHit {
+  bool valid = false;
+  FoundHit<F> hit;
+};
+
+template <typename F>
+[[nodiscard]] constexpr CountedHit<F> counted_hit(const Solution<F>& s, std::uint32_t triangle,
+                                                  std::uint32_t z, const LimitsWord& limits) noexcept {
+  const bool certify = !F::from_bits(limits.band).is_zero();
+  const std::uint32_t q = depth_quotient(s.t, s.d);
+  const bool valid = s.hit && (s.unsure || ((certify || z <= q) && q < limits.far));
+  const bool ends = certify && limits.any_hit;  // whichever hits come first will do
+  const bool unsure = s.unsure || ends;
+  const int more = !certify ? 0 : s.rough ? kRoughBoundMargin : kBoundMargin;
+  const std::uint32_t bound = unsure ? limits.far : limits.any_hit ? 0 : bound_of(q, more);
+  return {valid, {{true, triangle, s.t, s.d, s.u, s.v}, bound, certify, s.rough, unsure, ends}};
+}
+
 /// What can be skipped. None of it changes a hit.
 struct Skips {
   bool tree = true;           ///< off: the spheres of all leaves are tested, no inner node
@@ -60,10 +80,11 @@ struct FixedCounts {
 template <typename F>
 class FixedTrace {
  public:
-  using Results = std::array<ResultWord<F>, kMaxRays>;
+  using Results = std::array<RayHits<F>, kMaxRays>;
 
   FixedTrace(const FixedSceneMemory<F>& scene, const FixedPencilMemory<F>& pencil, const Skips& skips = {})
-      : scene_(scene), pencil_(pencil), skips_(skips) {
+      : scene_(scene), pencil_(pencil), limits_(pencil.limits), skips_(skips) {
+    limits_.any_hit = limits_.any_hit && skips.ended;
     rows_ = first_lines(pencil.pencil.rows);
     columns_ = first_lines(pencil.pencil.columns);
     bounds_.fill(pencil.limits.far);
@@ -77,12 +98,14 @@ class FixedTrace {
       }
     }
     walk();
-    for (const ResultWord<F>& result : results_) {
-      counts_.hits += result.hit ? 1 : 0;
+    for (const RayHits<F>& result : results_) {
+      counts_.hits += result.nearest.hit ? 1 : 0;
     }
   }
 
   /// The nearest hit of each ray; of an any-hit pencil only the hit bits don't depend on what is skipped.
+  /// Certified hits hold what the proof in docs/exact.md needs; which of them they are depends on what is
+  /// skipped.
   [[nodiscard]] const Results& results() const noexcept { return results_; }
   [[nodiscard]] const FixedCounts& counts() const noexcept { return counts_; }
 
@@ -165,19 +188,22 @@ class FixedTrace {
         continue;
       }
       ++counts_.pairs;
-      const Solution<F> s = solve(scene_.triangles[triangle], pencil_.pencil.origin, pencil_.rays[ray]);
+      const Solution<F> s = solve(scene_.triangles[triangle], pencil_.pencil.origin, pencil_.rays[ray],
+                                  F::from_bits(pencil_.limits.band));
       if (!s.hit) {
         continue;
       }
-      const std::uint32_t q = depth_quotient(s.t, s.d);
-      if (!inside || !lines.near || q < lines.z || q >= pencil_.limits.far) {
+      const CountedHit<F> counted = counted_hit(s, triangle, lines.z, limits_);
+      if (!inside || !lines.near || !counted.valid) {
         ++counts_.strays;
         continue;
       }
-      if (nearer(s.t, s.d, triangle, results_[ray])) {
-        results_[ray] = {true, triangle, s.t, s.d, s.u, s.v};
-        const bool ends = pencil_.limits.any_hit && skips_.ended;
-        bounds_[ray] = ends ? 0 : bound_of(q);
+      const KeptHit<F> kept = keep_hit(counted.hit, results_[ray]);
+      if (kept.write) {
+        results_[ray] = kept.word;
+      }
+      if (kept.write && kept.bounds) {
+        bounds_[ray] = kept.bound;
       }
     }
   }
@@ -200,6 +226,7 @@ class FixedTrace {
 
   const FixedSceneMemory<F>& scene_;
   const FixedPencilMemory<F>& pencil_;
+  LimitsWord limits_;  ///< the pencil's, any_hit only if that ends rays
   Skips skips_;
   std::uint32_t rows_ = 0;     ///< of the pencil
   std::uint32_t columns_ = 0;  ///< of the pencil

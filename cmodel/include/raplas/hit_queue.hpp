@@ -18,20 +18,16 @@ struct ValidHit {
   bool token = false;
   std::uint32_t bank = 0;
   std::uint32_t ray = 0;
-  ResultWord<F> result;     ///< its hit bit counts as 1
-  std::uint32_t bound = 0;  ///< of the ray, if the hit is stored
+  FoundHit<F> hit;
 };
 
 /// What entity hit_queue says in a clock.
 template <typename F>
 struct NearestHit {
-  bool write = false;
-  bool first = false;      ///< the ray had no hit; else false
+  KeptHit<F> kept;         ///< without write it says nothing but that
   bool done = false;       ///< a token passed
   std::uint32_t bank = 0;  ///< of the write, or of the token
   std::uint32_t ray = 0;
-  ResultWord<F> result;
-  std::uint32_t bound = 0;
 };
 
 /// Entity hit_queue. Each clock: read stall(), asks() and out(), then clock().
@@ -48,24 +44,15 @@ class HitQueue {
   [[nodiscard]] const NearestHit<F>& out() const noexcept { return decided_.out(); }
 
   /// `given`: a hit or a token comes. `best`: what was asked for kMemoryStages clocks ago.
-  void clock(bool given, const ValidHit<F>& hit, const ResultWord<F>& best) noexcept {
+  void clock(bool given, const ValidHit<F>& hit, const RayHits<F>& best) noexcept {
     const ValidHit<F>& front = queue_.front();
     const std::uint32_t place = front.bank << (2 * kLineBits) | front.ray;
     const bool token = queue_.valid() && front.token;
     const bool issue = queue_.valid() && !front.token && !issue_.blocked(place);
     const Gone& gone = line_.out();  // s2
-    NearestHit<F> decided{};
-    if (gone.valid) {
-      const ResultWord<F>& r = gone.hit.result;
-      const bool hit_gone = !gone.hit.token;
-      decided = {hit_gone && nearer(r.t, r.d, r.triangle, best),
-                 hit_gone && !best.hit,
-                 gone.hit.token,
-                 gone.hit.bank,
-                 gone.hit.ray,
-                 r,
-                 gone.hit.bound};
-      decided.result.hit = true;
+    NearestHit<F> decided{{}, gone.valid && gone.hit.token, gone.hit.bank, gone.hit.ray};
+    if (gone.valid && !gone.hit.token) {
+      decided.kept = keep_hit(gone.hit.hit, best);
     }
     decided_.clock(decided);
     line_.clock({issue || token, front});

@@ -79,14 +79,15 @@ class RaplasUnit {
     count(e, control.walk);
 
     // results
-    const ResultWord<F> best = bests_.out();
+    const RayHits<F> best = bests_.out();
     bests_.clock(results_[hits_.asks().bank][hits_.asks().ray]);
     if (control.clear) {
       results_[cleared].fill({});
       hit_rows_[cleared] = 0;
     }
-    if (e.stored.write) {
-      results_[e.stored.bank][e.stored.ray] = e.stored.result;
+    const KeptHit<F>& kept = e.stored.kept;
+    if (kept.write) {
+      results_[e.stored.bank][e.stored.ray] = kept.word;
       hit_rows_[e.stored.bank] |= LineMask{1} << (e.stored.ray / kMaxColumns);
     }
     const Solved solved = solver_.out();
@@ -138,7 +139,7 @@ class RaplasUnit {
     const FixedPencilMemory<F>& prepared = pencils_[cleared];
     bounds_.clock(
         {control.clear, cleared, prepared.pencil.rows, prepared.pencil.columns, prepared.limits.far},
-        {e.stored.write, e.stored.bank, e.stored.ray, e.stored.bound}, read);
+        {kept.write && kept.bounds, e.stored.bank, e.stored.ray, kept.bound}, read);
 
     control_.clock(start, bank, prepared.pencil.rows, prepared.pencil.columns, walk_spent, walk_idle,
                    token_ready, e.stored.done, e.stored.bank);
@@ -198,15 +199,14 @@ class RaplasUnit {
   [[nodiscard]] Solved solve_pair(bool issue) const {
     const QueuedRow& row = columns_.row();
     if (!issue) {
-      return {false, {true, row.bank, 0, {}, 0}};
+      return {false, {true, row.bank, 0, {}}};
     }
     const FixedPencilMemory<F>& pencil = pencils_[row.bank];
     const std::uint32_t ray = columns_.ray();
-    const auto s = solve(scene_->triangles[row.triangle], pencil.pencil.origin, pencil.rays[ray]);
-    const std::uint32_t q = depth_quotient(s.t, s.d);
-    const bool hit = s.hit && row.z <= q && q < pencil.limits.far;
-    const std::uint32_t bound = pencil.limits.any_hit ? 0 : bound_of(q);
-    return {hit, {false, row.bank, ray, {true, row.triangle, s.t, s.d, s.u, s.v}, bound}};
+    const auto s = solve(scene_->triangles[row.triangle], pencil.pencil.origin, pencil.rays[ray],
+                         F::from_bits(pencil.limits.band));
+    const CountedHit<F> counted = counted_hit(s, row.triangle, row.z, pencil.limits);
+    return {counted.valid, {false, row.bank, ray, counted.hit}};
   }
 
   void count(const RaplasEdges<F>& e, bool walk) noexcept {
@@ -220,7 +220,7 @@ class RaplasUnit {
       add(Counter::spheres_skipped, e.request.vertex ? 0 : ~std::uint32_t{0});
     }
     add(Counter::pairs_tested, e.issue ? 1 : 0);
-    add(Counter::hits, e.stored.first ? 1 : 0);
+    add(Counter::hits, e.stored.kept.write && e.stored.kept.first ? 1 : 0);
     add(Counter::stall_cycles, e.stall ? 1 : 0);
   }
 
@@ -244,7 +244,7 @@ class RaplasUnit {
   RayBounds bounds_;
   Delay<Solved, kPairStages> solver_;
   HitQueue<F> hits_;
-  Delay<ResultWord<F>, kMemoryStages> bests_;
+  Delay<RayHits<F>, kMemoryStages> bests_;
 };
 
 }  // namespace raplas

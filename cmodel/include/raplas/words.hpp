@@ -187,4 +187,49 @@ struct ResultWord {
   }
 };
 
+/// Result Memory of profile raplas. Of certified hits a triangle is *possible* if the ray may hit it in exact
+/// arithmetic. All flags are false unless hits are certified: docs/exact.md.
+template <typename F>
+struct RayHits {
+  ResultWord<F> nearest;             ///< the nearest possible hit as computed
+  bool crowd = false;                ///< more triangles are possible than the word holds
+  bool unsure = false;               ///< the depth isn't known, of none of the possible triangles
+  bool rough = false;                ///< nearest's depth is known roughly
+  bool rival = false;                ///< another triangle is possible, and may be nearer
+  bool rival_rough = false;          ///< the rival's depth is known roughly or not at all
+  std::uint32_t rival_triangle = 0;  ///< of a rival
+
+  friend constexpr bool operator==(const RayHits&, const RayHits&) noexcept = default;
+
+  [[nodiscard]] PackedWord<RayHitsLayout::kBits> pack() const noexcept {
+    PackedWord<RayHitsLayout::kBits> word{};
+    insert(word, RayHitsLayout::hit, nearest.hit ? 1 : 0);
+    insert(word, RayHitsLayout::crowd, crowd ? 1 : 0);
+    insert(word, RayHitsLayout::unsure, unsure ? 1 : 0);
+    insert(word, RayHitsLayout::rough, rough ? 1 : 0);
+    insert(word, RayHitsLayout::rival, rival ? 1 : 0);
+    insert(word, RayHitsLayout::rival_rough, rival_rough ? 1 : 0);
+    insert(word, RayHitsLayout::rival_triangle, rival_triangle);
+    insert(word, RayHitsLayout::triangle, nearest.triangle);
+    insert(word, RayHitsLayout::t, nearest.t.bits());
+    insert(word, RayHitsLayout::d, nearest.d.bits());
+    insert(word, RayHitsLayout::u, nearest.u.bits());
+    insert(word, RayHitsLayout::v, nearest.v.bits());
+    return word;
+  }
+
+  [[nodiscard]] static RayHits unpack(const PackedWord<RayHitsLayout::kBits>& word) noexcept {
+    const auto flag = [&word](Field field) { return extract(word, field) != 0; };
+    const auto number = [&word](Field field) { return F::from_bits(extract(word, field)); };
+    return {{flag(RayHitsLayout::hit), extract(word, RayHitsLayout::triangle), number(RayHitsLayout::t),
+             number(RayHitsLayout::d), number(RayHitsLayout::u), number(RayHitsLayout::v)},
+            flag(RayHitsLayout::crowd),
+            flag(RayHitsLayout::unsure),
+            flag(RayHitsLayout::rough),
+            flag(RayHitsLayout::rival),
+            flag(RayHitsLayout::rival_rough),
+            extract(word, RayHitsLayout::rival_triangle)};
+  }
+};
+
 }  // namespace raplas

@@ -101,6 +101,16 @@ struct Hit {
 /// Event counts since the scene was loaded, in the order of raplas::Counter.
 using Counters = std::array<std::uint64_t, kNumCounters>;
 
+/// Rays of an exact device by what the host did for them in double precision.
+struct Retests {
+  std::uint64_t rays = 0;  ///< all
+  std::uint64_t hits =
+      0;  ///< it tested the triangle that the unit found, as every hit's t, u and v are its own
+  std::uint64_t rivals = 0;  ///< and another one that the unit couldn't tell from it
+  std::uint64_t traced = 0;  ///< all triangles, through the sphere tree
+  double seconds = 0;        ///< of all that
+};
+
 /// An accelerator that holds one scene and traces pencils through it.
 class IntersectionDevice {
  public:
@@ -122,6 +132,9 @@ class IntersectionDevice {
   /// Clocks simulated by trace(), pencils written and results read included; 0 if nothing is simulated.
   [[nodiscard]] virtual std::uint64_t simulated_clocks() const { return 0; }
 
+  /// Of an exact device, since load(): what the host had to test itself.
+  [[nodiscard]] virtual Retests retests() const { return {}; }
+
   /// Pencils since load() that were not given to the unit, as they miss the spheres of the root range.
   [[nodiscard]] virtual std::uint64_t skipped_pencils() const { return 0; }
 };
@@ -134,6 +147,7 @@ struct DeviceOptions {
   Profile profile = Profile::raplas;
   std::size_t sphere_depth = 1U << 20;  ///< words of the Sphere Memory; XC4VSX35: 4096
   std::size_t triangle_depth = 1U << 20;
+  bool exact = false;  ///< the hits of double precision, whatever the unit computes in (profile raplas)
 };
 
 /// Makes the device called `name` (reference, model, rtl); throws std::runtime_error for an unknown name,

@@ -28,6 +28,7 @@ struct Scene {
   std::vector<Triangle> triangles;
   std::vector<Surface> surfaces;       ///< by triangle
   std::size_t degenerate_dropped = 0;  ///< triangles without area, or whose normal is zero as fp24
+  double longest_edge = 0;             ///< of all triangles
   double max_origin = 0;               ///< bound of all pencils' origins, see pencil.hpp
 };
 
@@ -36,9 +37,9 @@ struct Scene {
 /// std::runtime_error, one line naming the file and the cause.
 [[nodiscard]] Scene load_scene(const std::filesystem::path& file);
 
-/// How far a shadow pencil starts from the surface, in units of normalised scenes. The devices place a
-/// triangle's plane with an error of a few 2^-16 of the distance to its V0, which is at most 2; 2^-10 clears
-/// it.
-inline constexpr double kOriginOffset = 1.0 / 1024;
+/// How far off a surface rays have to start so as not to hit it again, in units of normalised scenes:
+/// 2^-16 max(2.5 + |O| / 2, 3 |O| + 9 L), of an origin at a distance of |O| from zero and a scene whose
+/// longest edge is L. Derivation: docs/host.md.
+[[nodiscard]] double surface_offset(double origin_length, double longest_edge);
 
 }  // namespace raplas

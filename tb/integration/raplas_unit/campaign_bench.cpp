@@ -42,7 +42,7 @@ TEST_F(RaplasUnitBench, FindsTheHitsOfTheDefinition) {
     while (pencils.size() < std::min<std::uint64_t>(kPencils, cases - done)) {
       const bool full = scenes.below(2) == 0;
       const auto lines = [&] { return full ? 16 : 1 + scenes.below(16); };
-      pencils.push_back(scenes.pencil(lines(), lines()));
+      pencils.push_back(scenes.certified(scenes.pencil(lines(), lines()), 3));
     }
     ASSERT_NO_FATAL_FAILURE(stream(pencils, kPencilBanks, Oracle::definition));
     done += pencils.size();

@@ -79,7 +79,10 @@ TEST_F(RaplasUnitBench, NeedsEveryBitOfEveryWord) {
     }
     FixedPencilMemory<F> pencil;
     pencil.pencil = {kSlow ? 5U : 16U, kSlow ? 5U : 16U, words.vector()};
-    pencil.limits = {words.bits(2) == 0, slack, words.bits(1) == 0 ? kNoBound : 0x5000 + words.bits(13)};
+    pencil.limits.band = k % 2 == 0 ? 0 : words.number().magnitude();
+    pencil.limits.any_hit = words.bits(2) == 0;
+    pencil.limits.slack = slack;
+    pencil.limits.far = words.bits(1) == 0 ? kNoBound : 0x5000 + words.bits(13);
     for (std::size_t line = 0; line < kMaxRows; ++line) {
       pencil.planes.rows[line] = words.plane(scene.vertices, slack);
       pencil.planes.columns[line] = words.plane(scene.vertices, slack);

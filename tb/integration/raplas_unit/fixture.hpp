@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "possible_hits.hpp"
 #include "random_fixed_scenes.hpp"
 #include "raplas/host_port.hpp"
 #include "raplas/raplas_unit.hpp"
@@ -49,7 +50,7 @@ class RaplasUnitBench : public testing::Test {
     scene_ = &scene;
   }
 
-  /// What the hits must be.
+  /// What the hits must be. Of certified hits they are the model's, with what PossibleHits wants.
   enum class Oracle {
     walk,        ///< those of FixedTrace; and the model's edges on every clock
     model,       ///< the model's, of scenes that are none; and its edges on every clock
@@ -95,9 +96,13 @@ class RaplasUnitBench : public testing::Test {
         if (next_ray == 0) {
           const std::uint64_t rows = dut().get(dut().port("hit_rows_o"));
           ASSERT_EQ(rows >> (read % kPencilBanks * kMaxRows) & 0xffffU, model_.hit_rows(read % kPencilBanks));
-          expected = oracle == Oracle::model  ? model_.results(read % kPencilBanks)
-                     : oracle == Oracle::walk ? FixedTrace<F>(*scene_, pencils[read]).results()
+          const bool certified = pencils[read].limits.band != 0;
+          expected = oracle == Oracle::model || certified ? model_.results(read % kPencilBanks)
+                     : oracle == Oracle::walk             ? FixedTrace<F>(*scene_, pencils[read]).results()
                                               : FixedTrace<F>(*scene_, pencils[read], kNoSkips).results();
+          if (certified && oracle != Oracle::model) {
+            ASSERT_NO_FATAL_FAILURE(expect_possible(pencils[read], expected));
+          }
         }
         dut().set(dut().port("result_ray_i"), read % kPencilBanks * kRays + next_ray % kRays);
         reading.push_back({read, next_ray});
@@ -157,6 +162,8 @@ class RaplasUnitBench : public testing::Test {
   }
 
   std::uint64_t hits_ = 0;
+  std::uint64_t rivals_ = 0;  ///< of certified hits
+  std::uint64_t crowds_ = 0;
   std::uint64_t differences_ = 0;  ///< of Oracle::definition
 
  private:
@@ -176,15 +183,26 @@ class RaplasUnitBench : public testing::Test {
     dut().set(dut().port("write_i"), 0);
   }
 
+  /// The words hold what they must of the triangles that the rays may hit.
+  void expect_possible(const FixedPencilMemory<F>& pencil, const FixedTrace<F>::Results& words) {
+    const PossibleHits<F> possible(*scene_, pencil);
+    for (std::uint32_t ray = 0; ray < words.size(); ++ray) {
+      ASSERT_EQ(possible.wrong(ray, words[ray]), "") << "ray " << ray;
+      rivals_ += words[ray].rival ? 1U : 0U;
+      crowds_ += words[ray].crowd ? 1U : 0U;
+    }
+  }
+
   /// What is read of a ray is what is expected.
-  bool same_result(const FixedPencilMemory<F>& pencil, const ResultWord<F>& expected) {
-    PackedWord<ResultLayout::kBits> word{};
+  bool same_result(const FixedPencilMemory<F>& pencil, const RayHits<F>& expected) {
+    PackedWord<RayHitsLayout::kBits> word{};
     dut().get(dut().port("result_o"), word);
-    const auto seen = ResultWord<F>::unpack(word);
-    hits_ += seen.hit ? 1 : 0;
+    const auto seen = RayHits<F>::unpack(word);
+    const bool hit = seen.nearest.hit;
+    hits_ += hit ? 1 : 0;
     count_checked();
-    return seen.hit == expected.hit && !(seen.hit && dut().has_unknown(dut().port("result_o"))) &&
-           (!seen.hit || pencil.limits.any_hit || seen == expected);
+    return hit == expected.nearest.hit && !(hit && dut().has_unknown(dut().port("result_o"))) &&
+           (!hit || (pencil.limits.any_hit && pencil.limits.band == 0) || seen == expected);
   }
 
   static void expect(const char* name, std::uint64_t value) { expect_port(dut().port(name), value, name); }
@@ -227,11 +245,11 @@ class RaplasUnitBench : public testing::Test {
       ASSERT_NO_FATAL_FAILURE(expect("triangle_o", e.triangle));
     }
     ASSERT_NO_FATAL_FAILURE(expect("hit_o", e.hit ? 1 : 0));
-    ASSERT_NO_FATAL_FAILURE(expect("stored_o", e.stored.write ? 1 : 0));
-    if (e.stored.write) {
+    ASSERT_NO_FATAL_FAILURE(expect("stored_o", e.stored.kept.write ? 1 : 0));
+    if (e.stored.kept.write) {
       ASSERT_NO_FATAL_FAILURE(expect("stored_ray_o", e.stored.ray));
       ASSERT_NO_FATAL_FAILURE(
-          expect_port(dut().port("stored_result_o"), e.stored.result.pack(), "stored_result_o"));
+          expect_port(dut().port("stored_result_o"), e.stored.kept.word.pack(), "stored_result_o"));
     }
   }
 

@@ -35,11 +35,13 @@ TEST_F(RaplasUnitBench, StreamsPencilsOfEverySizeThroughTrees) {
     for (int p = 0; p < (kSlow ? 5 : 16); ++p) {
       const bool full = scenes.below(3) == 0;
       const auto lines = [&] { return full ? 16 : 1 + scenes.below(16); };
-      pencils.push_back(scenes.pencil(lines(), lines()));
+      pencils.push_back(scenes.certified(scenes.pencil(lines(), lines()), 3));
     }
     ASSERT_NO_FATAL_FAILURE(stream(pencils, kSlow ? 4 : 1 + scenes.below(kPencilBanks)));
   }
   EXPECT_GT(hits_, kSlow ? 5U : 5000U);
+  EXPECT_GE(rivals_, kSlow ? 0U : 500U);
+  EXPECT_GE(crowds_, kSlow ? 0U : 50U);
 }
 
 TEST_F(RaplasUnitBench, EndsThePencilsOfAnEmptyScene) {
@@ -55,16 +57,17 @@ TEST_F(RaplasUnitBench, EndsThePencilsOfAnEmptyScene) {
   ASSERT_NO_FATAL_FAILURE(stream(pencils));
 }
 
-TEST_F(RaplasUnitBench, WaitsForRoomInTheTriangleQueue) {  // a strip before all rays, the nearest one last
-  FixedScenes<F> scenes(224);
-  constexpr std::uint32_t kTriangles = 90;
+constexpr std::uint32_t kTriangles = 90;
+
+/// A strip before all rays of FixedScenes::ahead().
+FixedSceneMemory<F> strip(double z, double step) {
   FixedSceneMemory<F> scene;
   for (std::uint32_t v = 0; v < kTriangles + 2; ++v) {
     constexpr std::array<std::array<double, 2>, 3> kCorners{{{-0.9, -0.9}, {0.9, -0.9}, {0, 0.9}}};
     const auto fixed = [](double x) { return static_cast<std::int32_t>(x * 0x1p17); };
     const std::uint32_t slot = v % 3;
     VertexWord vertex{
-        {fixed(kCorners[slot][0]), fixed(kCorners[slot][1]), fixed(0.5 - 0.005 * v)}, slot, v >= 2, 0};
+        {fixed(kCorners[slot][0]), fixed(kCorners[slot][1]), fixed(z + step * v)}, slot, v >= 2, 0};
     if (vertex.emit) {
       vertex.triangle = v - 2;
       std::array<FixedVec3, 3> corners;
@@ -83,6 +86,12 @@ TEST_F(RaplasUnitBench, WaitsForRoomInTheTriangleQueue) {  // a strip before all
   all.count = kTriangles + 2;
   scene.nodes = {all};
   scene.scene = {1, 1, 0};
+  return scene;
+}
+
+TEST_F(RaplasUnitBench, WaitsForRoomInTheTriangleQueue) {  // a strip before all rays, the nearest one last
+  FixedScenes<F> scenes(224);
+  const FixedSceneMemory<F> scene = strip(0.5, -0.005);
   load(scene);
   std::vector<FixedPencilMemory<F>> pencils;
   for (const std::uint32_t lines :
@@ -90,10 +99,28 @@ TEST_F(RaplasUnitBench, WaitsForRoomInTheTriangleQueue) {  // a strip before all
     pencils.push_back(scenes.ahead(lines, lines));
     pencils.push_back(pencils.back());
     pencils.back().limits.any_hit = true;  // most pairs are dropped
+    pencils.push_back(scenes.certified(pencils.front()));
   }
   const std::uint64_t before = model_.counters()[static_cast<std::size_t>(Counter::pairs_tested)];
   ASSERT_NO_FATAL_FAILURE(stream(pencils));
   EXPECT_GE(model_.counters()[static_cast<std::size_t>(Counter::pairs_tested)] - before, kTriangles * 4);
+}
+
+TEST_F(RaplasUnitBench,
+       TestsWhatIsNearlyAsNearAsACertifiedHit) {  // pieces of one triangle, the nearest first
+  FixedScenes<F> scenes(225);
+  FixedSceneMemory<F> scene = strip(0.1, 0.0003);
+  for (VertexWord& vertex : scene.vertices) {
+    vertex.triangle = 0;
+  }
+  load(scene);
+  const auto pairs = [this] { return model_.counters()[static_cast<std::size_t>(Counter::pairs_tested)]; };
+  FixedPencilMemory<F> pencil = scenes.ahead(2, 2);
+  ASSERT_NO_FATAL_FAILURE(stream({pencil}));
+  const std::uint64_t plain = pairs();
+  pencil.limits.band = kBandExponent << kFractionBits;
+  ASSERT_NO_FATAL_FAILURE(stream({pencil}));
+  EXPECT_GE(pairs() - plain, plain + 40);
 }
 
 TEST_F(RaplasUnitBench, StartsAfreshAfterAResetInTheMiddle) {
@@ -101,7 +128,7 @@ TEST_F(RaplasUnitBench, StartsAfreshAfterAResetInTheMiddle) {
   const FixedSceneMemory<F> scene = scenes.scene(kSlow ? 15 : 60);
   load(scene);
   const std::vector<FixedPencilMemory<F>> pencils{scenes.pencil(kSlow ? 6 : 16, kSlow ? 6 : 16),
-                                                  scenes.pencil(4, 7)};
+                                                  scenes.certified(scenes.pencil(4, 7))};
   for (const int clocks :
        kSlow ? std::vector<int>{60} : std::vector<int>{1, 5, 20, 30, 50, 70, 90, 120, 200}) {
     for (std::size_t bank = 0; bank < pencils.size(); ++bank) {

@@ -1,6 +1,6 @@
 // hit_queue: the words in order, each in its clock, by a list of the times at which places (bank and ray)
-// were last read; the nearest hit of each ray by exact products in MPFR; and the model clock by clock. The
-// bench plays the Result memory.
+// were last read; what is kept of each ray by exact products in MPFR, and by the rule of docs/hit_queue.md;
+// and the model clock by clock. The bench plays the Result memory.
 #include <algorithm>
 #include <map>
 #include <random>
@@ -8,6 +8,7 @@
 
 #include "oracle.hpp"
 #include "raplas/hit_queue.hpp"
+#include "support/depth_place.hpp"
 #include "support/scoreboard.hpp"
 
 namespace raplas {
@@ -21,17 +22,20 @@ constexpr std::size_t kUnderWay = 30;  // clocks from a pair to its hit
 const PortStage kWriteStage{"write_o", kLatency};
 const PortStage kDoneStage{"done_o", kLatency};
 
-using Word = ResultWord<Fp24>;
+using Word = RayHits<Fp24>;
 using Hit = ValidHit<Fp24>;
 
 struct Pattern {
   unsigned hit_percent;  // of the clocks in which pairs may go
   unsigned rays;
   unsigned token_percent;
+  unsigned certify_percent = 0;  // of the pencils
+  unsigned unsure_percent = 0;   // of the hits of those
+  unsigned rough_percent = 0;
 };
 
 /// t/d of `a` is below that of `b`, or equal and its triangle has the lower ID.
-bool before(const Word& a, const Word& b) {
+bool before(const ResultWord<Fp24>& a, const ResultWord<Fp24>& b) {
   const auto product = [](Fp24 x, Fp24 y) {
     oracle::Real result;
     mpfr_mul(result.get(), oracle::Real(x.bits()).get(), oracle::Real(y.bits()).get(), MPFR_RNDN);  // exact
@@ -39,6 +43,107 @@ bool before(const Word& a, const Word& b) {
   };
   const int order = mpfr_cmp(product(a.t, b.d).get(), product(b.t, a.d).get());
   return order < 0 || (order == 0 && a.triangle < b.triangle);
+}
+
+/// What becomes of a hit.
+enum Outcome : std::size_t {
+  kFirst,       // of its ray
+  kNearer,      // than the one kept, which is forgotten
+  kFarther,     // forgotten
+  kKnown,       // its triangle is in the word
+  kTieNearer,   // and the one kept is its rival
+  kTieFarther,  // it is the rival
+  kSurer,       // the one kept, unsure, is its rival
+  kUnsure,      // it is a rival of one whose depth is known
+  kBothUnsure,  // it is a rival of one whose depth isn't known either
+  kTie,         // of depths known well
+  kRoughTie,    // that would be none if they were known well
+  kCrowd,       // there was a rival already
+  kCrowded,     // there was a crowd already
+  kRivalStays,  // an unsure one, though the hit is nearer than the one kept
+  kRivalGoes,   // it was no farther than the one kept, which is farther than the hit
+  kEnds,        // two are enough
+  kOutcomes
+};
+
+struct Decision {
+  std::vector<Outcome> outcomes;
+  bool write = false;
+  bool bounds = false;
+  std::uint32_t bound = 0;
+  Word word;
+};
+
+/// The rule, case by case.
+Decision decide(const FoundHit<Fp24>& hit, const Word& word) {
+  const ResultWord<Fp24>& r = hit.result;
+  const ResultWord<Fp24>& best = word.nearest;
+  const auto alone = [&](Outcome outcome) {  // the hit, and nothing else
+    Decision d{{outcome}, true, true, hit.bound, {}};
+    d.word.nearest = r;
+    d.word.nearest.hit = true;
+    d.word.rough = hit.rough;
+    d.word.unsure = hit.unsure;
+    return d;
+  };
+  if (!best.hit) {
+    return alone(kFirst);
+  }
+  if (!hit.certify) {
+    return before(r, best) ? alone(kNearer) : Decision{{kFarther}, false, false, 0, {}};
+  }
+  if (word.crowd) {
+    return {{kCrowded}, false, false, 0, {}};
+  }
+  if (r.triangle == best.triangle || (word.rival && r.triangle == word.rival_triangle)) {
+    return {{kKnown}, false, false, 0, {}};
+  }
+  const bool known = !hit.unsure && !word.unsure;  // both depths
+  const bool rough = hit.rough || word.rough;
+  if (known && !tied(r.t.bits(), r.d.bits(), best.t.bits(), best.d.bits(), rough)) {
+    if (!before(r, best)) {
+      return {{kFarther}, false, false, 0, {}};
+    }
+    Decision d = alone(kNearer);
+    if (word.rival && word.rival_rough) {
+      d.word.rival = true;
+      d.word.rival_rough = true;
+      d.outcomes.push_back(kRivalStays);
+    } else if (word.rival) {
+      d.outcomes.push_back(kRivalGoes);
+    }
+    d.word.rival_triangle = word.rival_triangle;  // without a rival it means nothing
+    return d;
+  }
+  // either may be nearer: one is kept as the nearest, the other is its rival
+  const bool wins = known ? before(r, best) : !hit.unsure;
+  Decision d = wins ? alone(known ? kTieNearer : kSurer)
+                    : Decision{{known         ? kTieFarther
+                                : word.unsure ? kBothUnsure
+                                              : kUnsure},
+                               true,
+                               false,
+                               0,
+                               word};
+  d.word.rival = true;
+  const bool sure = wins ? !word.rough && !word.unsure : !hit.rough && !hit.unsure;  // the rival's
+  d.word.rival_rough = !sure;
+  if (known && tied(r.t.bits(), r.d.bits(), best.t.bits(), best.d.bits()) != rough) {
+    d.outcomes.push_back(rough ? kRoughTie : kTie);
+  }
+  d.word.rival_triangle = wins ? best.triangle : r.triangle;
+  if (word.rival) {
+    d.word.crowd = true;
+    d.outcomes.push_back(kCrowd);
+  }
+  if (hit.ends) {
+    d.outcomes.push_back(kEnds);
+  }
+  if (word.rival || hit.ends) {  // nothing matters to this ray any more
+    d.bounds = true;
+    d.bound = 0;
+  }
+  return d;
 }
 
 class HitQueueBench : public testing::Test {
@@ -57,6 +162,13 @@ class HitQueueBench : public testing::Test {
     EXPECT_EQ(dones_, tokens_);
   }
 
+  /// Every outcome came so often.
+  void expect_outcomes(int least) const {
+    for (std::size_t k = 0; k < kOutcomes; ++k) {
+      EXPECT_GE(outcomes_[k], Dut::simulator() == "ghdl" ? least / 10 : least) << "outcome " << k;
+    }
+  }
+
   void clock(int now, bool more) {
     // pairs under way: a stalled one comes to nothing
     std::optional<Hit> given;
@@ -66,8 +178,9 @@ class HitQueueBench : public testing::Test {
       under_way_.pop_front();
     }
     apply(given);
-    const Word best = asked_.size() == kMemoryStages ? asked_.back() : Word{};
+    Word best = asked_.size() == kMemoryStages ? asked_.back() : Word{};
     dut().set(dut().port("best_i"), best.pack());
+    best = best.nearest.hit ? best : Word{};  // without a hit all else means nothing
     dut().settle();
     check(now);
 
@@ -92,7 +205,7 @@ class HitQueueBench : public testing::Test {
     // written
     const auto asked = static_cast<std::size_t>(dut().get(dut().port("best_bank_o")) * kRays +
                                                 dut().get(dut().port("best_ray_o")));
-    asked_.push_front(asked == written_ ? Word{} : memory_[asked]);
+    asked_.push_front(asked == written_ ? any_word() : memory_[asked]);
     if (asked_.size() > kMemoryStages) {
       asked_.pop_back();
     }
@@ -122,7 +235,7 @@ class HitQueueBench : public testing::Test {
     dut().set(dut().port("rst_i"), 0);
     for (int k = 0; k < 80 && !HasFailure(); ++k) {
       dut().settle();
-      for (const char* name : {"write_o", "first_o", "done_o", "stall_o"}) {
+      for (const char* name : {"write_o", "bounds_o", "first_o", "done_o", "stall_o"}) {
         expect_port(dut().port(name), 0, name);
       }
       dut().clock();
@@ -133,8 +246,8 @@ class HitQueueBench : public testing::Test {
     gone_.clear();
     asked_.clear();
     read_.clear();
-    std::fill(memory_.begin(), memory_.end(), Word{});
-    std::fill(nearest_.begin(), nearest_.end(), Word{});
+    forget_hits(memory_);
+    forget_hits(kept_);
     tokens_ = dones_ = 0;
   }
 
@@ -149,21 +262,51 @@ class HitQueueBench : public testing::Test {
     hit.ray = static_cast<std::uint32_t>(random_() % pattern_.rays) * 37 % kRays;
     tokens_ += hit.token ? 1 : 0;
     const auto bits = [this](unsigned n) { return static_cast<std::uint32_t>(random_() & ((1U << n) - 1)); };
+    const auto any = [&bits] { return Fp24::from_bits(bits(24)); };
     if (random_() % 2 == 0) {  // t/d is one of a few, in several spellings
       const std::uint32_t scale = bits(2) << 16;
-      hit.result = {false,
-                    bits(2) << bits(4),
-                    Fp24::from_bits(0x3e8000 + (bits(1) << bits(4)) + scale),
-                    Fp24::from_bits(0x3f4000 + scale),
-                    Fp24::from_bits(bits(24)),
-                    Fp24::from_bits(bits(24))};
+      hit.hit.result = {false,
+                        bits(2) << bits(4),
+                        Fp24::from_bits(0x3e8000 + (bits(1) << bits(4)) + scale),
+                        Fp24::from_bits(0x3f4000 + scale),
+                        any(),
+                        any()};
     } else {
       const auto positive = [&bits] { return Fp24::from_bits(0x3d0000 + bits(18)); };
-      hit.result = {
-          false, bits(kIdBits), positive(), positive(), Fp24::from_bits(bits(24)), Fp24::from_bits(bits(24))};
+      hit.hit.result = {false, bits(kIdBits), positive(), positive(), any(), any()};
     }
-    hit.bound = bits(kDepthBits);
+    hit.hit.bound = bits(kDepthBits);
+    const auto pencil = static_cast<std::uint32_t>(tokens_ - (hit.token ? 1 : 0));
+    hit.hit.certify = pencil * 37 % 100 < pattern_.certify_percent;
+    if (hit.hit.certify) {
+      hit.hit.ends = pencil % 4 == 3;
+      hit.hit.unsure = hit.hit.ends || random_() % 100 < pattern_.unsure_percent;
+      hit.hit.rough = random_() % 100 < pattern_.rough_percent;
+      if (random_() % 4 != 0) {  // depths that are a tie or nearly, many triangles or few
+        hit.hit.result.triangle = bits(2) << bits(4) % 3 * 9;
+        hit.hit.result.t = Fp24::from_bits(0x3e8000 + bits(12) - (bits(1) << 11));
+        hit.hit.result.d = Fp24::from_bits(0x3f4000 + bits(3));
+      }
+      if (hit.hit.unsure && random_() % 2 == 0) {  // they say nothing
+        (random_() % 2 == 0 ? hit.hit.result.t : hit.hit.result.d) = any();
+      }
+    }
     return hit;
+  }
+
+  static void forget_hits(std::vector<Word>& words, std::size_t first = 0,
+                          std::size_t count = ~std::size_t{0}) {
+    for (std::size_t k = first; k < words.size() && k - first < count; ++k) {
+      words[k].nearest.hit = false;
+    }
+  }
+
+  /// Anything but a hit.
+  Word any_word() {
+    PackedWord<RayHitsLayout::kBits> bits{};
+    std::generate(bits.begin(), bits.end(), [this] { return static_cast<std::uint32_t>(random_()); });
+    insert(bits, RayHitsLayout::hit, 0);
+    return Word::unpack(bits);
   }
 
   void apply(const std::optional<Hit>& given) {
@@ -173,12 +316,16 @@ class HitQueueBench : public testing::Test {
     set("last_i", given && hit.token ? 1 : 0);
     set("bank_i", hit.bank);
     set("ray_i", hit.ray);
-    set("triangle_i", hit.result.triangle);
-    set("t_i", hit.result.t.bits());
-    set("d_i", hit.result.d.bits());
-    set("u_i", hit.result.u.bits());
-    set("v_i", hit.result.v.bits());
-    set("bound_i", hit.bound);
+    set("triangle_i", hit.hit.result.triangle);
+    set("t_i", hit.hit.result.t.bits());
+    set("d_i", hit.hit.result.d.bits());
+    set("u_i", hit.hit.result.u.bits());
+    set("v_i", hit.hit.result.v.bits());
+    set("bound_i", hit.hit.bound);
+    set("certify_i", hit.hit.certify ? 1 : 0);
+    set("rough_i", hit.hit.rough ? 1 : 0);
+    set("unsure_i", hit.hit.unsure ? 1 : 0);
+    set("ends_i", hit.hit.ends ? 1 : 0);
   }
 
   void check(int now) {
@@ -187,48 +334,55 @@ class HitQueueBench : public testing::Test {
     };
     written_ = memory_.size();
     const std::optional<Hit> due = gone_.size() == kLatency ? gone_.back() : std::nullopt;
-    bool store = false;
+    Decision decision;
     bool first = false;
     if (due && !due->token) {
       const std::size_t place = due->bank * std::size_t{kRays} + due->ray;
-      Word& nearest = nearest_[place];
-      first = !nearest.hit;
-      store = first || before(due->result, nearest);
-      if (store) {
-        nearest = due->result;
-        nearest.hit = true;
+      first = !kept_[place].nearest.hit;
+      decision = decide(due->hit, kept_[place]);
+      for (const Outcome outcome : decision.outcomes) {
+        ++outcomes_[outcome];
+      }
+      if (decision.write) {
+        kept_[place] = decision.word;
         written_ = place;
-        word_ = nearest;
+        word_ = decision.word;
         ++writes_;
-        expect_port(dut().port("result_o"), nearest.pack(), "result_o");
+        expect_port(dut().port("result_o"), word_.pack(), "result_o");
         expect("write_bank_o", due->bank);
         expect("ray_o", due->ray);
-        expect("bound_o", due->bound);
+        if (decision.bounds) {
+          expect("bound_o", decision.bound);
+        }
       }
     }
     const bool done = due && due->token;
-    expect("write_o", store ? 1 : 0);
+    expect("write_o", decision.write ? 1 : 0);
+    expect("bounds_o", decision.bounds ? 1 : 0);
     expect("first_o", first ? 1 : 0);
     expect("done_o", done ? 1 : 0);
     expect("stall_o", waiting_.size() >= std::size_t{1} << (kHitFifoDepthLog2 - 1) ? 1 : 0);
-    if (done) {  // the memory holds the nearest hits of the pencil; a new one starts with none
+    if (done) {  // the memory holds what is kept of the pencil; a new one starts with no hits
       ++dones_;
       expect("done_bank_o", due->bank);
-      const auto begin = due->bank * std::ptrdiff_t{kRays};
-      ASSERT_TRUE(
-          std::equal(nearest_.begin() + begin, nearest_.begin() + begin + kRays, memory_.begin() + begin));
-      std::fill_n(nearest_.begin() + begin, kRays, Word{});
-      std::fill_n(memory_.begin() + begin, kRays, Word{});
+      const auto begin = due->bank * std::size_t{kRays};
+      for (std::size_t k = begin; k < begin + kRays; ++k) {
+        ASSERT_EQ(kept_[k].nearest.hit, memory_[k].nearest.hit);
+        ASSERT_TRUE(!kept_[k].nearest.hit || kept_[k] == memory_[k]);
+      }
+      forget_hits(kept_, begin, kRays);
+      forget_hits(memory_, begin, kRays);
     }
     const NearestHit<Fp24>& model = model_.out();
-    ASSERT_EQ(model.write, store) << "model, clock " << now;
-    ASSERT_EQ(model.first, first) << "model, clock " << now;
+    ASSERT_EQ(model.kept.write, decision.write) << "model, clock " << now;
+    ASSERT_EQ(model.kept.write && model.kept.first, first) << "model, clock " << now;
     ASSERT_EQ(model.done, done) << "model, clock " << now;
     ASSERT_EQ(model_.count(), waiting_.size());
-    if (store) {
-      ASSERT_EQ(model.result, word_);
+    if (decision.write) {
+      ASSERT_EQ(model.kept.word, word_);
       ASSERT_EQ(model.bank * kRays + model.ray, written_);
-      ASSERT_EQ(model.bound, due->bound);
+      ASSERT_EQ(model.kept.bounds, decision.bounds);
+      ASSERT_TRUE(!decision.bounds || model.kept.bound == decision.bound);
     }
     if (done) {
       ASSERT_EQ(model.bank, due->bank);
@@ -244,12 +398,13 @@ class HitQueueBench : public testing::Test {
   std::deque<Word> asked_;               // answers on their way, the youngest first
   std::map<std::uint32_t, int> read_;    // clock in which a place was last read
   std::vector<Word> memory_ = std::vector<Word>(std::size_t{kPencilBanks} * kRays);
-  std::vector<Word> nearest_ = memory_;
+  std::vector<Word> kept_ = memory_;  // of each ray
   std::size_t written_ = memory_.size();
   Word word_;
   int tokens_ = 0;
   int dones_ = 0;
   int writes_ = 0;
+  std::array<int, kOutcomes> outcomes_{};
   std::size_t most_ = 0;
 };
 
@@ -264,6 +419,13 @@ TEST_F(HitQueueBench, CountsIdleClocksToo) { run({30, 4, 3}); }
 TEST_F(HitQueueBench, LetsPencilsOverlap) { run({100, 3, 25}); }
 TEST_F(HitQueueBench, LetsTokensPassAlone) { run({20, 5, 60}); }
 
+TEST_F(HitQueueBench, KeepsARivalOfCertifiedHits) {
+  run({100, 60, 1, 75, 15, 25});
+  expect_outcomes(50);
+}
+TEST_F(HitQueueBench, KeepsARivalOfCertifiedHitsThatComeSeldom) { run({40, 40, 2, 100, 50, 50}); }
+TEST_F(HitQueueBench, KnowsCrowdsOfCertifiedHits) { run({100, 6, 3, 100, 5, 5}); }
+
 TEST_F(HitQueueBench, ForgetsWhatWaitsWhenReset) {
   pattern_ = {100, 1, 0};
   reset_dut();
@@ -275,7 +437,7 @@ TEST_F(HitQueueBench, ForgetsWhatWaitsWhenReset) {
 }
 
 TEST_F(HitQueueBench, ForgetsWhatIsUnderWayWhenReset) {
-  pattern_ = {100, kRays, 30};
+  pattern_ = {100, kRays, 30, 50, 30};
   reset_dut();
   for (int k = 0; k < 30 && !HasFailure(); ++k) {
     for (int clocks = 0; clocks < 60 + k && !HasFailure(); ++clocks) {

@@ -1,9 +1,12 @@
 // nearest_hit: t'/d against best.t'/best.d by exact integers.
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "operands.hpp"
 #include "oracle.hpp"
 #include "raplas/ray_triangle.hpp"
+#include "support/depth_place.hpp"
 #include "support/scoreboard.hpp"
 
 namespace raplas {
@@ -35,8 +38,9 @@ class Product {
 
 TEST(NearestHit, OrdersExactQuotientsAndTiesByTheLowerTriangle) {
   OperandPairs pairs(91);
-  Scoreboard<std::array<bool, 2>> board(kMulStages);
+  Scoreboard<std::array<bool, 5>> board(kMulStages);
   std::array<int, 3> orders{};
+  std::array<int, 2> ties{};
   for (int k = 0; k < kCases && !testing::Test::HasFailure(); ++k) {
     const auto positive = [&pairs] { return pairs.word(pairs.between(1, 127)) & 0x7fffffU; };
     std::uint32_t t = positive();
@@ -62,15 +66,27 @@ TEST(NearestHit, OrdersExactQuotientsAndTiesByTheLowerTriangle) {
     const bool near = !best.hit || order < 0 || (order == 0 && triangle < best.triangle);
     ++orders[static_cast<std::size_t>(1 + (order > 0) - (order < 0))];
     ASSERT_EQ(near, nearer(Fp24::from_bits(t), Fp24::from_bits(d), triangle, best));
+    const bool tie = tied(t, d, best.t.bits(), best.d.bits());
+    ++ties[tie ? 1 : 0];
+    const bool rough_tie = tied(t, d, best.t.bits(), best.d.bits(), true);
+    const DepthOrder by_model = depth_order(Fp24::from_bits(t), Fp24::from_bits(d), triangle, best);
+    ASSERT_EQ(tie, by_model.tie);
+    ASSERT_EQ(rough_tie, by_model.rough_tie);
     dut().set(dut().port("t_i"), t);
     dut().set(dut().port("d_i"), d);
     dut().set(dut().port("triangle_i"), triangle);
     dut().set(dut().port("best_i"), best.pack());
-    if (const auto due = board.clock({near, !best.hit})) {
+    if (const auto due = board.clock({near, !best.hit, best.hit, tie, rough_tie})) {
       expect_port(dut().port("nearer_o"), (*due)[0] ? 1 : 0, "nearer_o");
       expect_port(dut().port("first_o"), (*due)[1] ? 1 : 0, "first_o");
+      if ((*due)[2]) {
+        expect_port(dut().port("tie_o"), (*due)[3] ? 1 : 0, "tie_o");
+        expect_port(dut().port("rough_tie_o"), (*due)[4] ? 1 : 0, "rough_tie_o");
+      }
     }
   }
+  EXPECT_GT(*std::min_element(ties.begin(), ties.end()), kCases / 10)
+      << "ties are hardly tested, or nothing else";
   EXPECT_GT(*std::min_element(orders.begin(), orders.end()), kCases / 50) << "an order is hardly tested";
 }
 
@@ -106,6 +122,110 @@ TEST(NearestHit, SeesASingleBitOfTheProducts) {
       }
     }
   }
+}
+
+/// Two words above 0 whose product is that of `significand`, 2^32 .. 2^34 - 1, and 2^exponent.
+std::optional<std::array<std::uint32_t, 2>> factors(OperandPairs& pairs, std::int64_t significand,
+                                                    int exponent) {
+  constexpr std::int64_t kOne = 1 << kFractionBits;
+  const std::int64_t least = std::max(kOne, significand / (2 * kOne) + 1);
+  const std::int64_t most = std::llround(std::floor(std::sqrt(static_cast<double>(significand))));
+  const std::int64_t start = pairs.bits(kFractionBits);
+  for (std::int64_t k = 0; k <= most - least; ++k) {
+    const std::int64_t a = least + (start + k) % (most - least + 1);
+    if (significand % a == 0) {
+      const int of_a = pairs.between(std::max(1, exponent - 127), std::min(127, exponent - 1));
+      const auto word = [](int e, std::int64_t s) {
+        return static_cast<std::uint32_t>(e) << kFractionBits | static_cast<std::uint32_t>(s - kOne);
+      };
+      const std::array words{word(of_a, a), word(exponent - of_a, significand / a)};
+      return pairs.bits(1) != 0 ? words : std::array{words[1], words[0]};
+    }
+  }
+  return std::nullopt;  // not every number is such a product
+}
+
+TEST(NearestHit, KnowsATieToTheLastBitOfTheProducts) {
+  // places of products: octaves of 2^33 units each; one of a random product, and one some units from it
+  constexpr std::int64_t kOctave = std::int64_t{1} << (2 * kFractionBits + 1);
+  constexpr std::int64_t kEnd = 3 * (kOctave >> kTieShift);
+  constexpr std::int64_t kRoughEnd = kOctave >> kRoughTieShift;
+  OperandPairs pairs(94);
+  Scoreboard<std::array<bool, 3>> board(kMulStages);
+  std::array<int, 20> tested{};  // of each distance
+  std::array<int, 2> octaves{};  // the same, different ones
+  std::array<int, 2> spelled{};  // a significand from 2^33 on: no, yes
+  for (int k = 0; k < 12'000 && !testing::Test::HasFailure(); ++k) {
+    constexpr std::array<std::int64_t, 20> kApart{-kEnd - 2,
+                                                  -kEnd - 1,
+                                                  -kEnd,
+                                                  -kEnd + 1,
+                                                  -1,
+                                                  0,
+                                                  1,
+                                                  kEnd - 2,
+                                                  kEnd - 1,
+                                                  kEnd,
+                                                  kEnd + 1,
+                                                  kEnd + 2,
+                                                  -kRoughEnd - 2,
+                                                  -kRoughEnd - 1,
+                                                  -kRoughEnd,
+                                                  -kRoughEnd + 1,
+                                                  kRoughEnd - 2,
+                                                  kRoughEnd - 1,
+                                                  kRoughEnd,
+                                                  kRoughEnd + 1};
+    const std::size_t which = static_cast<std::size_t>(k) % kApart.size();
+    const std::int64_t apart = kApart[which];
+    const std::int64_t c = 0x10000 + pairs.bits(kFractionBits);
+    std::int64_t d = 0x10000 + pairs.bits(kFractionBits);
+    if (pairs.bits(1) != 0) {  // near a power of two
+      d = std::clamp<std::int64_t>((kOctave + pairs.between(-0x4000000, 0x4000000)) / c, 0x10000, 0x1ffff);
+    }
+    const int exponent = pairs.between(4, 250);
+    const auto from = [kOctave](std::int64_t significand) {  // the start of the exponent's octave
+      return significand >= kOctave ? significand : 2 * significand - kOctave;
+    };
+    const std::int64_t place = from(c * d) + apart;
+    const std::int64_t octave = place >= 0 ? place / kOctave : -1;
+    const std::int64_t fraction = place - octave * kOctave;
+    // fraction above a power of two: a significand from 2^33 on, or half of it with the exponent above
+    const bool low = fraction % 2 == 0 && pairs.bits(1) != 0;
+    const auto best = factors(pairs, c * d, exponent);
+    const auto here = factors(pairs, low ? (fraction + kOctave) / 2 : fraction + kOctave,
+                              exponent + static_cast<int>(octave) - (low ? 0 : 1));
+    if (!here || !best) {
+      continue;
+    }
+    const bool tie = apart >= -kEnd && apart < kEnd;
+    const bool rough_tie = apart >= -kRoughEnd && apart < kRoughEnd;
+    const bool near = apart < 0;
+    const std::array<std::uint32_t, 4> words{(*here)[0], (*best)[1], (*best)[0],
+                                             (*here)[1]};  // t d, of the best
+    ASSERT_EQ(tied(words[0], words[1], words[2], words[3]), tie);
+    ASSERT_EQ(tied(words[0], words[1], words[2], words[3], true), rough_tie);
+    const ResultWord<Fp24> stored{true, 0, Fp24::from_bits(words[2]), Fp24::from_bits(words[3]), {}, {}};
+    const DepthOrder order = depth_order(Fp24::from_bits(words[0]), Fp24::from_bits(words[1]), 0, stored);
+    ASSERT_EQ(order.tie, tie);
+    ASSERT_EQ(order.rough_tie, rough_tie);
+    ASSERT_EQ(order.nearer, near);
+    ++tested[which];
+    ++octaves[octave == from(c * d) / kOctave ? 0 : 1];
+    ++spelled[low ? 0 : 1];
+    dut().set(dut().port("t_i"), words[0]);
+    dut().set(dut().port("d_i"), words[1]);
+    dut().set(dut().port("triangle_i"), 0);
+    dut().set(dut().port("best_i"), stored.pack());
+    if (const auto due = board.clock({near, tie, rough_tie})) {
+      expect_port(dut().port("nearer_o"), (*due)[0] ? 1 : 0, "nearer_o");
+      expect_port(dut().port("tie_o"), (*due)[1] ? 1 : 0, "tie_o");
+      expect_port(dut().port("rough_tie_o"), (*due)[2] ? 1 : 0, "rough_tie_o");
+    }
+  }
+  EXPECT_GT(*std::min_element(tested.begin(), tested.end()), 10) << "a distance is hardly tested";
+  EXPECT_GT(*std::min_element(octaves.begin(), octaves.end()), 100) << "hardly any across a power of two";
+  EXPECT_GT(*std::min_element(spelled.begin(), spelled.end()), 100) << "a spelling is hardly tested";
 }
 
 TEST(NearestHit, ComparesAllBitsOfBothTrianglesInATie) {

@@ -1,5 +1,6 @@
 // result_memory against arrays: all banks, clearing one while others are written, both read ports, and which
-// rows have a hit.
+// rows have a hit. WIDTH is the unit's generic.
+#include <algorithm>
 #include <random>
 #include <vector>
 
@@ -9,7 +10,9 @@
 namespace raplas {
 namespace {
 
-using Word = ResultWord<Fp24>;
+static_assert(WIDTH == ResultLayout::kBits || WIDTH == RayHitsLayout::kBits);
+using Word = PackedWord<WIDTH>;
+constexpr Field kHit{WIDTH - 1, 1};
 constexpr std::size_t kRays = std::size_t{kMaxRows} * kMaxColumns;
 constexpr std::size_t kBanks = kPencilBanks;
 const PortStage kStages[]{{"best_o", kMemoryStages}, {"host_data_o", kMemoryStages}, {"hit_rows_o", 1}};
@@ -42,9 +45,10 @@ class ResultMemoryBench : public testing::Test {
     const std::size_t written = random_() % memory_.size();
     const std::size_t bank = written / kRays;
     write = write && cleared_[bank] && bank != clear;
-    const auto number = [this] { return Fp24::from_bits(static_cast<std::uint32_t>(random_() & 0xffffff)); };
-    const Word word{true,    static_cast<std::uint32_t>(random_() & kLastId), number(), number(), number(),
-                    number()};
+    Word word{};
+    std::generate(word.begin(), word.end(), [this] { return static_cast<std::uint32_t>(random_()); });
+    word.back() &= (2U << (WIDTH - 1) % 32) - 1;
+    insert(word, kHit, 1);
     const std::size_t best = place();
     const std::size_t host = place();
     const auto set = [](const char* name, std::uint64_t value) { dut().set(dut().port(name), value); };
@@ -54,8 +58,8 @@ class ResultMemoryBench : public testing::Test {
     set("write_bank_i", bank);
     set("write_ray_i", written % kRays);
     Word given = word;
-    given.hit = random_() % 2 == 0;  // counts as true
-    dut().set(dut().port("write_data_i"), given.pack());
+    insert(given, kHit, static_cast<std::uint32_t>(random_() % 2));  // counts as 1
+    dut().set(dut().port("write_data_i"), given);
     set("best_bank_i", best / kRays);
     set("best_ray_i", best % kRays);
     set("host_ray_i", host);
@@ -98,11 +102,10 @@ class ResultMemoryBench : public testing::Test {
     if (!expected.known) {
       return;
     }
-    PackedWord<ResultLayout::kBits> seen{};
-    dut().get(dut().port(name), seen);
-    const Word word = Word::unpack(seen);
-    ASSERT_EQ(word.hit, expected.word.hit) << name << " in clock " << dut().cycles();
-    if (word.hit) {  // else the other fields mean nothing
+    Word word{};
+    dut().get(dut().port(name), word);
+    ASSERT_EQ(extract(word, kHit), extract(expected.word, kHit)) << name << " in clock " << dut().cycles();
+    if (extract(word, kHit) != 0) {  // else the other fields mean nothing
       ASSERT_EQ(word, expected.word) << name << " in clock " << dut().cycles();
     }
     count_checked();
@@ -113,7 +116,7 @@ class ResultMemoryBench : public testing::Test {
     std::uint64_t known = 0;
     for (std::size_t ray = 0; ray < memory_.size(); ++ray) {
       const std::size_t row = ray / kMaxColumns;
-      rows |= std::uint64_t{memory_[ray].hit ? 1U : 0U} << row;
+      rows |= std::uint64_t{extract(memory_[ray], kHit)} << row;
       known |= std::uint64_t{cleared_[ray / kRays] ? 1U : 0U} << row;
     }
     const PortId port = dut().port("hit_rows_o");

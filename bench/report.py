@@ -169,7 +169,7 @@ def pareto_panel(axis, figures, names, x_axis, y_axis, colour):
     points = collections.defaultdict(list)
     for name in names:
         x, y = (figures(key.format(name)) for _, key in (x_axis, y_axis))
-        if x is not None and y:
+        if x is not None and (y or y == 0 and axis.get_yscale() == "linear"):
             points[float(f"{x:.3g}"), float(f"{y:.3g}")].append(name)
     for k, point in enumerate(sorted(points)):  # labels above and below in turn
         axis.plot(*point, "o", color=colour, markersize=6)
@@ -184,7 +184,7 @@ def pareto_panel(axis, figures, names, x_axis, y_axis, colour):
     if not points:
         axis.text(0.5, 0.5, "all errors are 0", transform=axis.transAxes, ha="center")
         return
-    if axis.get_yscale() == "linear":
+    if axis.get_yscale() == "linear" and max(y for _, y in points) > 0:
         axis.set_ylim(0, 1.25 * max(y for _, y in points))
     if axis.get_xscale() == "linear":
         axis.set_xlim(0, 1.3 * max(x for x, _ in points))
@@ -311,7 +311,7 @@ def page(figures, build, sentences):
              table(("mean of the scenes", *(text for text, _ in ERRORS), *(text for text, _ in COSTS)),
                    configuration_rows(figures, names, mean_keys)),
              "<h2>Pareto plots</h2><p>Left and below is better; lines join what nothing else is better than. Errors "
-             "of 0 have no place on a plot.</p>", image(plot_uri(pareto(figures)), "Pareto plots")]
+             "of 0 have no place on a logarithmic axis.</p>", image(plot_uri(pareto(figures)), "Pareto plots")]
     if (build / "figures/plane_error.json").exists():
         plot = image(plot_uri(planes_plot(figures, scenes)), "plane tests")
         parts += ["<h2>Plane tests</h2>", planes_table(figures), plot]

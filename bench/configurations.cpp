@@ -3,200 +3,31 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "configuration.hpp"
+#include "configuration_run.hpp"
+#include "figure_file.hpp"
 #include "heat_map.hpp"
 #include "program.hpp"
-#include "progress.hpp"
 #include "raplas/output_file.hpp"
-#include "ray_errors.hpp"
-#include "recorded.hpp"
-#include "scene_names.hpp"
+#include "scene_options.hpp"
 #include "skip_measure.hpp"
 
 namespace raplas {
 namespace {
 
-/// Spheres that the clocked models test for a scene's clocks, about, and the most pencils.
-constexpr std::uint64_t kClockedSpheres = 8'000'000;
-constexpr std::size_t kClockedPencils = 1024;
-
-/// Rays of a kind that software is timed with, about.
-constexpr std::size_t kTimedRays = 50'000;
-
-struct CommandLine {
-  std::vector<std::string> scenes;
+struct CommandLine : SceneOptions {
   std::vector<std::string> only;  ///< names of configurations; empty: all
-  int width = 256;
-  int height = 256;
-  int shadow = 4;
-  int repetitions = 7;   ///< of what is timed; 0: nothing is
+  RunOptions run;
   std::string pictures;  ///< folder; empty: none
-  std::string json;      ///< empty: none
-  bool quiet = false;
 };
-
-/// What a configuration gets wrong and takes, on a scene.
-struct Measured {
-  RayErrors camera;
-  RayErrors shadow;
-  PictureErrors picture;
-  RayClocks camera_clocks;
-  RayClocks shadow_clocks;
-  std::optional<double> camera_seconds;  ///< a ray, of software
-  std::optional<double> shadow_seconds;
-  Image image = {};
-};
-
-/// A scene prepared for each structure, with its pencils for each size of camera pencils.
-struct SceneRuns {
-  std::string name;
-  std::map<Structure, Prepared> prepared;
-  std::map<int, Recorded> recorded;
-  std::vector<Measured> measured;  ///< by configuration
-};
-
-Prepared prepare(const std::string& file, Structure structure) {
-  Settings settings;
-  settings.scene = file;
-  settings.flat = structure == Structure::flat;
-  if (structure != Structure::tree) {
-    settings.tree.longest_edge = kWholeTriangles;
-  }
-  return raplas::prepare(settings);
-}
-
-std::size_t rays_of(std::span<const Pencil> pencils) {
-  std::size_t rays = 0;
-  for (const Pencil& pencil : pencils) {
-    rays += pencil.directions.size();
-  }
-  return rays;
-}
-
-/// About `wanted` of the pencils, spread over all.
-std::vector<Pencil> sampled(std::span<const Pencil> pencils, std::size_t wanted) {
-  constexpr std::size_t kRow = 30030;  // so that no step has a factor of up to 13 in common with a row
-  std::vector<Pencil> sample;
-  for (const std::size_t k : every_kth(pencils.size(), wanted, kRow)) {
-    sample.push_back(pencils[k]);
-  }
-  return sample;
-}
-
-std::uint64_t cycles(const IntersectionDevice& device) {
-  return device.counters()[static_cast<std::size_t>(Counter::cycles)];
-}
-
-/// Errors, clocks and the picture of one configuration.
-Measured measure(const Configuration& configuration, const SceneRuns& scene, const CommandLine& line) {
-  const Prepared& prepared = scene.prepared.at(configuration.structure);
-  const Prepared& reference = scene.prepared.at(Structure::tree);
-  const Recorded& recorded = scene.recorded.at(configuration.pencil);
-  const auto device = configuration.make();
-  device->load(prepared.tree.scene);
-  Measured m;
-  const auto trace = [&](const std::vector<Pencil>& pencils, const std::vector<std::vector<Hit>>& expected,
-                         RayErrors& errors, RayClocks& clocks) {
-    const std::uint64_t before = cycles(*device);
-    auto hits = device->trace(pencils);
-    clocks = {rays_of(pencils), cycles(*device) - before};
-    to_scene_triangles(prepared.tree.source, hits);
-    errors = compare_rays(reference, pencils, expected, hits);
-    if (configuration.clocks) {
-      const std::size_t spheres = prepared.tree.scene.root_count;
-      clocks = configuration.clocks(
-          prepared.tree.scene,
-          sampled(pencils, std::clamp<std::size_t>(kClockedSpheres / spheres, 1, kClockedPencils)));
-    }
-  };
-  trace(recorded.camera, recorded.camera_hits, m.camera, m.camera_clocks);
-  trace(recorded.shadow, recorded.shadow_hits, m.shadow, m.shadow_clocks);
-  const RenderOptions options{line.width, line.height, configuration.pencil, line.shadow};
-  m.image = render(prepared.scene, prepared.tree.source, *device, options, {}).image;
-  m.picture = compare_pictures(to_8_bit(recorded.picture), to_8_bit(m.image));
-  return m;
-}
-
-/// Software side by side: each repetition runs all of them, one after the other, on one thread.
-void time_software(const std::vector<Configuration>& list, SceneRuns& scene, const CommandLine& line) {
-  struct Timed {
-    std::size_t configuration;
-    std::unique_ptr<IntersectionDevice> device;
-    std::vector<double> camera;
-    std::vector<double> shadow;
-  };
-  std::vector<Timed> all;
-  for (std::size_t k = 0; k < list.size(); ++k) {
-    if (list[k].netlist.empty()) {
-      all.push_back({k, list[k].make(), {}, {}});
-      all.back().device->load(scene.prepared.at(list[k].structure).tree.scene);
-    }
-  }
-  const Recorded& recorded = scene.recorded.at(kMaxRows);
-  const auto part = [](const std::vector<Pencil>& pencils) {
-    const std::size_t rays = std::max<std::size_t>(1, rays_of(pencils));
-    return sampled(pencils, std::max<std::size_t>(1, kTimedRays * pencils.size() / rays));
-  };
-  const std::vector<Pencil> camera = part(recorded.camera);
-  const std::vector<Pencil> shadow = part(recorded.shadow);
-  const auto seconds_a_ray = [](IntersectionDevice& device, const std::vector<Pencil>& pencils) {
-    const auto start = std::chrono::steady_clock::now();
-    const auto hits = device.trace(pencils);
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    return seconds.count() / static_cast<double>(std::max<std::size_t>(1, rays_of(pencils)));
-  };
-  Progress progress(scene.name + ", time of software", line.quiet);
-  for (int k = 0; k < line.repetitions; ++k) {
-    for (Timed& timed : all) {
-      timed.camera.push_back(seconds_a_ray(*timed.device, camera));
-      timed.shadow.push_back(seconds_a_ray(*timed.device, shadow));
-    }
-    progress.show((k + 1.0) / line.repetitions);
-  }
-  for (Timed& timed : all) {
-    if (const auto camera_times = quantiles(std::move(timed.camera))) {
-      scene.measured[timed.configuration].camera_seconds = camera_times->median;
-      scene.measured[timed.configuration].shadow_seconds = quantiles(std::move(timed.shadow))->median;
-    }
-  }
-}
-
-SceneRuns run_scene(const std::string& file, const std::vector<Configuration>& list,
-                    const CommandLine& line) {
-  SceneRuns scene;
-  scene.name = std::filesystem::path(file).stem().string();
-  scene.prepared.emplace(Structure::tree, prepare(file, Structure::tree));
-  for (const Configuration& c : list) {
-    if (!scene.prepared.contains(c.structure)) {
-      scene.prepared.emplace(c.structure, prepare(file, c.structure));
-    }
-    if (!scene.recorded.contains(c.pencil)) {
-      const RenderOptions options{line.width, line.height, c.pencil, line.shadow};
-      scene.recorded.emplace(c.pencil, record(scene.prepared.at(Structure::tree), options));
-    }
-  }
-  scene.measured.resize(list.size());
-  {
-    Progress progress(scene.name, line.quiet);
-    const auto work = [&](std::size_t k) { scene.measured[k] = measure(list[k], scene, line); };
-    for_each_parallel(list.size(), work, [&](double share) { progress.show(share); });
-  }
-  if (line.repetitions > 0) {
-    time_software(list, scene, line);
-  }
-  return scene;
-}
 
 /// A measured number.
 struct Value {
@@ -205,10 +36,6 @@ struct Value {
   const char* heading;
   std::optional<double> number;  ///< nothing: there is none
 };
-
-double percent(std::uint64_t count, std::uint64_t of) {
-  return of == 0 ? 0 : 100 * static_cast<double>(count) / static_cast<double>(of);
-}
 
 std::vector<Value> error_values(const Measured& m) {
   const RayErrors& c = m.camera;
@@ -361,23 +188,19 @@ class Means {
   std::map<std::string, const char*> units_;
 };
 
-nlohmann::ordered_json figures(const std::vector<Configuration>& list, const std::vector<SceneRuns>& scenes,
-                               const std::string& command) {
-  nlohmann::ordered_json json;
-  const auto add = [&](const std::string& name, const auto& value, const char* unit) {
-    json[name] = {{"value", value}, {"unit", unit}, {"command", command}};
-  };
+void add_figures(FigureFile& figures, const std::vector<Configuration>& list,
+                 const std::vector<SceneRuns>& scenes) {
   const auto add_all = [&](const std::string& prefix, const std::vector<Value>& values) {
     for (const Value& value : values) {
       if (value.number) {
-        add(prefix + "." + value.name, *value.number, value.unit);
+        figures.add(prefix + "." + value.name, *value.number, value.unit);
       }
     }
   };
   for (std::size_t k = 0; k < list.size(); ++k) {
     const Configuration& c = list[k];
-    add("configuration." + c.name + ".title", c.title, "");
-    add("configuration." + c.name + ".netlist", c.netlist, "");
+    figures.add("configuration." + c.name + ".title", c.title, "");
+    figures.add("configuration." + c.name + ".netlist", c.netlist, "");
     Means means;
     for (const SceneRuns& scene : scenes) {
       const auto costs = cost_values(c, scene.measured[k], scene.measured.front());
@@ -388,7 +211,6 @@ nlohmann::ordered_json figures(const std::vector<Configuration>& list, const std
     add_all("error." + c.name, means.errors());
     add_all("cost." + c.name, means.costs());
   }
-  return json;
 }
 
 /// Those that were asked for; double precision always.
@@ -418,13 +240,14 @@ void run(const CommandLine& line, const std::string& command) {
   if (!line.pictures.empty()) {
     std::filesystem::create_directories(line.pictures);
   }
-  std::optional<OutputFile> json;
-  if (!line.json.empty()) {
-    json.emplace(line.json);
-  }
+  FigureFile figures(line.json, command);
   std::vector<SceneRuns> scenes;
+  RunOptions options = line.run;
+  options.width = line.width;
+  options.height = line.height;
+  options.quiet = line.quiet;
   for (const std::string& file : line.scenes) {
-    SceneRuns scene = run_scene(file, list, line);
+    SceneRuns scene = run_scene(file, list, options);
     print_table(list, scene);
     if (!line.pictures.empty()) {
       write_pictures(list, scene, line.pictures);
@@ -434,32 +257,24 @@ void run(const CommandLine& line, const std::string& command) {
     scene.recorded.clear();
     scenes.push_back(std::move(scene));
   }
-  if (json) {
-    json->write(figures(list, scenes, command).dump(2) + "\n");
-    json->commit();
-  }
+  add_figures(figures, list, scenes);
+  figures.commit();
 }
 
 int parse_and_run(int argc, char** argv) {
-  constexpr int kMaxSide = 16384;
   constexpr int kMaxRepetitions = 1000;
   CLI::App app{"Trace the same pictures by whole configurations, and measure errors and costs",
                "configurations"};
   CommandLine line;
-  app.add_option("scenes", line.scenes, "scenes (.json) or meshes (.obj .ply .stl .gltf .glb .bpt)")
-      ->required();
+  add_options(app, line);
   app.add_option("--only", line.only, "configurations, besides double (default: all)");
-  app.add_option("--width", line.width, "pixels")->check(CLI::Range(1, kMaxSide))->capture_default_str();
-  app.add_option("--height", line.height, "pixels")->check(CLI::Range(1, kMaxSide))->capture_default_str();
-  app.add_option("--shadow", line.shadow, "rays in a row of a shadow pencil")
+  app.add_option("--shadow", line.run.shadow, "rays in a row of a shadow pencil")
       ->check(CLI::Range(1, kMaxRows))
       ->capture_default_str();
-  app.add_option("--repetitions", line.repetitions, "of software that is timed; 0: none is")
+  app.add_option("--repetitions", line.run.repetitions, "of software that is timed; 0: none is")
       ->check(CLI::Range(0, kMaxRepetitions))
       ->capture_default_str();
   app.add_option("--pictures", line.pictures, "folder for the pictures, SCENE.CONFIGURATION.png");
-  app.add_option("--json", line.json, "file for figures");
-  app.add_flag("--quiet", line.quiet, "no progress");
   if (const auto exit_code = parse(app, argc, argv)) {
     return *exit_code;
   }

@@ -6,21 +6,19 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
-#include <nlohmann/json.hpp>
-#include <optional>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "error_band.hpp"
+#include "figure_file.hpp"
 #include "parallel.hpp"
 #include "program.hpp"
 #include "progress.hpp"
 #include "raplas/encode.hpp"
 #include "raplas/encode_fixed.hpp"
-#include "raplas/output_file.hpp"
 #include "raplas/pencil.hpp"
 #include "raplas/plane_sphere.hpp"
+#include "stress_meshes.hpp"
 
 namespace raplas {
 namespace {
@@ -67,27 +65,6 @@ struct Decisions {
     spheres_paper.add(d.spheres_paper);
     spheres_raplas.add(d.spheres_raplas);
   }
-};
-
-class Dice {
- public:
-  explicit Dice(std::uint64_t seed) : random_(seed) {}
-  double uniform(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random_);
-  }
-  glm::dvec3 on_sphere() {
-    for (;;) {
-      const glm::dvec3 v(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
-      const double length = glm::length(v);
-      if (length > 0.1 && length <= 1) {
-        return v / length;
-      }
-    }
-  }
-  glm::dvec3 in_ball(double radius) { return radius * std::cbrt(uniform(0, 1)) * on_sphere(); }
-
- private:
-  std::mt19937_64 random_;
 };
 
 /// Within the unit ball, edges of 2^-10 to 1, not too thin for a word's N.
@@ -231,10 +208,7 @@ class Block {
 };
 
 int run(const CommandLine& line, const std::string& command) {
-  std::optional<OutputFile> file;
-  if (!line.json.empty()) {
-    file.emplace(line.json);
-  }
+  FigureFile figures(line.json, command);
   // of a block there are 3 x 256 ray-triangle decisions and more of spheres
   constexpr double kOfBlock = 3.0 * kMaxRays;
   constexpr std::size_t kShares = 200;
@@ -255,16 +229,12 @@ int run(const CommandLine& line, const std::string& command) {
   for (const Decisions& share : shares) {
     all.add(share);
   }
-  nlohmann::ordered_json json;
   std::uint64_t decided = 0;
   std::uint64_t wrong = 0;
-  const auto figure = [&](const std::string& name, std::uint64_t value, const char* unit) {
-    json[name] = {{"value", value}, {"unit", unit}, {"command", command}};
-  };
   fmt::print("{:<44}{:>14}{:>14}{:>8}\n", "", "decided", "either way", "wrong");
   const auto report = [&](const char* name, const char* title, const Kind& kind) {
     fmt::print("{:<44}{:>14}{:>14}{:>8}\n", title, kind.decided, kind.open, kind.wrong);
-    figure(std::string("soak.") + name, kind.decided, "decisions");
+    figures.add(std::string("soak.") + name, kind.decided, "decisions");
     decided += kind.decided;
     wrong += kind.wrong;
   };
@@ -273,12 +243,9 @@ int run(const CommandLine& line, const std::string& command) {
   report("triangles_certified", "ray and triangle, certified", all.triangles_certified);
   report("spheres_paper", "plane and sphere, profile paper", all.spheres_paper);
   report("spheres_raplas", "ray and sphere by its planes, profile raplas", all.spheres_raplas);
-  figure("soak.decisions", decided, "decisions");
-  figure("soak.wrong", wrong, "decisions");
-  if (file) {
-    file->write(json.dump(2) + "\n");
-    file->commit();
-  }
+  figures.add("soak.decisions", decided, "decisions");
+  figures.add("soak.wrong", wrong, "decisions");
+  figures.commit();
   return wrong == 0 ? 0 : 1;
 }
 

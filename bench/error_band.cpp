@@ -70,6 +70,9 @@ class Arithmetic {
   ErrorModel model_;
 };
 
+/// Of anything the vector may be.
+double norm1(const Vector& v) { return v[0].most() + v[1].most() + v[2].most(); }
+
 /// The four dot products; signs are not yet turned round.
 struct Products {
   Bounded n_d;
@@ -89,7 +92,13 @@ Products products_of(const ErrorModel& model, const Triangle& triangle, const gl
   const Vector n{device.input(cross[0]), device.input(cross[1]), device.input(cross[2])};
   const Vector t = device.subtract(device.input(triangle.v0), device.input(origin));
   const Vector dxt = device.cross(d, t);
-  return {device.dot(n, d), device.dot(n, t), device.dot(dxt, e1), device.dot(dxt, e2)};
+  // a border is an error of the sums that are compared with 0
+  const auto bordered = [&model](const Bounded& x, double factors) {
+    return Bounded{x.value, x.error + model.border * factors * (1 + 8 * kHere)};
+  };
+  return {bordered(device.dot(n, d), norm1(e1) * norm1(e2)), device.dot(n, t),
+          bordered(device.dot(dxt, e1), norm1(t) * norm1(e1)),
+          bordered(device.dot(dxt, e2), norm1(t) * norm1(e2))};
 }
 
 /// The sign of N.D is not certain: a miss if no sign of it gives a hit.

@@ -16,15 +16,16 @@ struct ErrorModel {
   double operation;  ///< of a result
   double cut;        ///< of the larger operand of a sum, what an adder without guard bits loses
   double tiny;       ///< results below this become 0
+  double border;     ///< how far outside u', v' or d - u' - v' may be, as a share of their factors' 1-norms
   bool depth_codes;  ///< hits whose depth is off by more than its code's margin are rejected
 };
 
-/// Device `reference`, whose borders are wider than its roundings of 2^-53.
-inline constexpr ErrorModel kDoubleErrors{0, 0x1p-47, 0, 0x1p-1000, false};
+/// Device `reference`, whose borders are 2^-49 wide.
+inline constexpr ErrorModel kDoubleErrors{0, 0x1p-53, 0, 0x1p-1000, 0x1p-49, false};
 /// fp24 as docs/number_format.md has it: to nearest on its way in, truncated in each operation.
-inline constexpr ErrorModel kRaplasErrors{0x1.001p-17, 0x1.001p-16, 0, 0x1p-62, true};
+inline constexpr ErrorModel kRaplasErrors{0x1.001p-17, 0x1.001p-16, 0, 0x1p-62, 0, true};
 /// The same without guard bits: docs/fp_add.md.
-inline constexpr ErrorModel kPaperErrors{0x1.001p-17, 0x1.001p-16, 0x1.001p-16, 0x1p-62, false};
+inline constexpr ErrorModel kPaperErrors{0x1.001p-17, 0x1.001p-16, 0x1.001p-16, 0x1p-62, 0, false};
 
 /// What a device may find for a ray and a triangle.
 struct Band {

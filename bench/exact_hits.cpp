@@ -4,15 +4,16 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
-#include <nlohmann/json.hpp>
-#include <optional>
+#include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
+#include "figure_file.hpp"
 #include "parallel.hpp"
 #include "program.hpp"
 #include "progress.hpp"
-#include "raplas/output_file.hpp"
+#include "scene_options.hpp"
 #include "scene_pencils.hpp"
 #include "session.hpp"
 
@@ -22,14 +23,9 @@ namespace {
 /// Pencils that a device gets together.
 constexpr std::size_t kBatch = 512;
 
-struct CommandLine {
-  std::vector<std::string> scenes;
-  int width = 1024;
-  int height = 1024;
+struct CommandLine : SceneOptions {
   int tile = 16;
   std::string device = "model";
-  std::string json;  ///< empty: none
-  bool quiet = false;
 };
 
 /// What was measured of pencils of one kind.
@@ -60,12 +56,6 @@ struct Measured {
   }
 };
 
-double percent(std::uint64_t count, std::uint64_t of) {
-  return of == 0 ? 0 : 100 * static_cast<double>(count) / static_cast<double>(of);
-}
-
-double per(double sum, std::uint64_t of) { return of == 0 ? 0 : sum / static_cast<double>(of); }
-
 using Hits = std::vector<std::vector<Hit>>;
 
 /// A device of each kind, with its scene.
@@ -86,14 +76,57 @@ struct Devices {
   std::unique_ptr<IntersectionDevice> reference;
 };
 
+/// Devices for as many threads as need them at a time.
+class DevicePool {
+ public:
+  DevicePool(const DeviceScene& scene, std::string name) : scene_(scene), name_(std::move(name)) {}
+
+  [[nodiscard]] std::unique_ptr<Devices> take() {
+    {
+      const std::lock_guard lock(mutex_);
+      if (!free_.empty()) {
+        auto devices = std::move(free_.back());
+        free_.pop_back();
+        return devices;
+      }
+    }
+    return std::make_unique<Devices>(scene_, name_);
+  }
+  void give_back(std::unique_ptr<Devices> devices) {
+    const std::lock_guard lock(mutex_);
+    free_.push_back(std::move(devices));
+  }
+
+ private:
+  const DeviceScene& scene_;
+  std::string name_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Devices>> free_;
+};
+
+std::uint64_t cycles(const IntersectionDevice& device) {
+  return device.counters()[static_cast<std::size_t>(Counter::cycles)];
+}
+
+Retests since(const Retests& before, const Retests& now) {
+  return {now.rays - before.rays, now.hits - before.hits, now.rivals - before.rivals,
+          now.traced - before.traced, now.seconds - before.seconds};
+}
+
 /// Traces pencils by all three and compares.
 Measured compare(Devices& devices, std::span<const Pencil> pencils, Hits& expected) {
   Measured m;
   const auto start = std::chrono::steady_clock::now();
   expected = devices.reference->trace(pencils);
   m.reference_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const Retests retests_before = devices.exact->retests();
+  const std::uint64_t exact_before = cycles(*devices.exact);
+  const std::uint64_t plain_before = cycles(*devices.plain);
   const Hits exact = devices.exact->trace(pencils);
   const Hits plain = devices.plain->trace(pencils);
+  m.retests = since(retests_before, devices.exact->retests());
+  m.clocks = cycles(*devices.exact) - exact_before;
+  m.plain_clocks = cycles(*devices.plain) - plain_before;
   for (std::size_t k = 0; k < pencils.size(); ++k) {
     for (std::size_t ray = 0; ray < expected[k].size(); ++ray) {
       const Hit& right = expected[k][ray];
@@ -110,32 +143,21 @@ Measured compare(Devices& devices, std::span<const Pencil> pencils, Hits& expect
   return m;
 }
 
-/// Devices keep counts since their scene was loaded; one set of them works for one share of the pencils.
-Measured measure(const DeviceScene& scene, std::span<const Pencil> pencils, const CommandLine& line,
-                 const std::string& what, Hits& expected) {
+Measured measure(DevicePool& pool, std::span<const Pencil> pencils, bool quiet, const std::string& what,
+                 Hits& expected) {
   expected.resize(pencils.size());
-  constexpr std::size_t kShares = 16;
-  const std::size_t share = (pencils.size() + kShares - 1) / kShares;
-  std::vector<Measured> measured(kShares);
-  Progress progress(what, line.quiet);
+  const std::size_t batches = (pencils.size() + kBatch - 1) / kBatch;
+  std::vector<Measured> measured(batches);
+  Progress progress(what, quiet);
   for_each_parallel(
-      kShares,
+      batches,
       [&](std::size_t k) {
-        Devices devices(scene, line.device);
-        const std::size_t begin = std::min(k * share, pencils.size());
-        const std::size_t end = std::min(begin + share, pencils.size());
-        for (std::size_t first = begin; first < end; first += kBatch) {
-          const auto batch = pencils.subspan(first, std::min(kBatch, end - first));
-          Hits hits;
-          measured[k].add(compare(devices, batch, hits));
-          std::move(hits.begin(), hits.end(), expected.begin() + static_cast<std::ptrdiff_t>(first));
-        }
-        const auto cycles = [](const IntersectionDevice& device) {
-          return device.counters()[static_cast<std::size_t>(Counter::cycles)];
-        };
-        measured[k].retests = devices.exact->retests();
-        measured[k].clocks = cycles(*devices.exact);
-        measured[k].plain_clocks = cycles(*devices.plain);
+        std::unique_ptr<Devices> devices = pool.take();
+        const auto batch = pencils.subspan(k * kBatch, std::min(kBatch, pencils.size() - k * kBatch));
+        Hits hits;
+        measured[k] = compare(*devices, batch, hits);
+        std::move(hits.begin(), hits.end(), expected.begin() + static_cast<std::ptrdiff_t>(k * kBatch));
+        pool.give_back(std::move(devices));
       },
       [&](double done) { progress.show(done); });
   Measured sum;
@@ -146,16 +168,15 @@ Measured measure(const DeviceScene& scene, std::span<const Pencil> pencils, cons
 }
 
 /// Figures and a line of the table.
-void report(const std::string& name, const Measured& m, nlohmann::ordered_json& json,
-            const std::string& command) {
+void report(const std::string& name, const Measured& m, FigureFile& figures) {
   const auto figure = [&](const char* key, const auto& value, const char* unit) {
-    json[name + "." + key] = {{"value", value}, {"unit", unit}, {"command", command}};
+    figures.add(name + "." + key, value, unit);
   };
   const double retested = percent(m.retests.traced, m.rays);
   const double rivals = percent(m.retests.rivals, m.rays);
-  const double clocks = per(static_cast<double>(m.clocks), m.rays);
-  const double plain_clocks = per(static_cast<double>(m.plain_clocks), m.rays);
-  const double host = 100 * per(m.retests.seconds, 1) / std::max(m.reference_seconds, 1e-9);
+  const double clocks = per(m.clocks, m.rays);
+  const double plain_clocks = per(m.plain_clocks, m.rays);
+  const double host = m.reference_seconds > 0 ? 100 * m.retests.seconds / m.reference_seconds : 0;
   fmt::print("{:<38}{:>12}{:>10.2f}{:>10}{:>12.4f}{:>10.3f}{:>10.3f}{:>10.3f}{:>10.3f}{:>10.1f}\n", name,
              m.rays, percent(m.hits, m.rays), m.differing, percent(m.plain_wrong, m.rays), rivals, retested,
              plain_clocks, clocks, host);
@@ -172,11 +193,8 @@ void report(const std::string& name, const Measured& m, nlohmann::ordered_json& 
 }
 
 int run(const CommandLine& line, const std::string& command) {
-  std::optional<OutputFile> file;
-  if (!line.json.empty()) {
-    file.emplace(line.json);
-  }
-  nlohmann::ordered_json json;
+  check_names(line.scenes);
+  FigureFile figures(line.json, command);
   fmt::print("{:<38}{:>12}{:>10}{:>10}{:>12}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "", "rays", "hit, %", "differ",
              "24 bit", "2 tests", "traced", "clocks", "exact", "host");
   fmt::print("{:<38}{:>12}{:>10}{:>10}{:>12}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "", "", "", "", "wrong, %",
@@ -186,14 +204,14 @@ int run(const CommandLine& line, const std::string& command) {
     Settings settings;
     settings.scene = scene_file;
     const Prepared prepared = prepare(settings);
-    const DeviceScene& scene = prepared.tree.scene;
-    const std::string name = "exact." + settings.scene.stem().string();
+    const std::string name = "exact." + scene_name(scene_file);
+    DevicePool pool(prepared.tree.scene, line.device);
     const auto measure_kind = [&](const char* kind, std::span<const Pencil> pencils, Hits& hits) {
-      const Measured m = measure(scene, pencils, line, name + "." + kind, hits);
-      report(name + "." + kind, m, json, command);
+      const Measured m = measure(pool, pencils, line.quiet, name + "." + kind, hits);
+      report(name + "." + kind, m, figures);
       all.add(m);
     };
-    const std::vector<Pencil> camera = camera_pencils(prepared.scene, line.width, line.height);
+    const std::vector<Pencil> camera = camera_pencils(prepared.scene.camera, line.width, line.height);
     Hits hits;
     measure_kind("camera", camera, hits);
     const std::vector<SeenPixel> pixels =
@@ -207,11 +225,8 @@ int run(const CommandLine& line, const std::string& command) {
     }
     measure_kind("hemisphere", hemispheres, hits);
   }
-  report("exact", all, json, command);
-  if (file) {
-    file->write(json.dump(2) + "\n");
-    file->commit();
-  }
+  report("exact", all, figures);
+  figures.commit();
   return all.differing == 0 ? 0 : 1;
 }
 
@@ -219,10 +234,9 @@ int parse_and_run(int argc, char** argv) {
   constexpr int kMaxSide = 16384;
   CLI::App app{"Compare the hits of an exact device with double precision", "exact_hits"};
   CommandLine line;
-  app.add_option("scenes", line.scenes, "scenes (.json) or meshes (.obj .ply .stl .gltf .glb .bpt)")
-      ->required();
-  app.add_option("--width", line.width, "pixels")->check(CLI::Range(1, kMaxSide))->capture_default_str();
-  app.add_option("--height", line.height, "pixels")->check(CLI::Range(1, kMaxSide))->capture_default_str();
+  line.width = 1024;
+  line.height = 1024;
+  add_options(app, line);
   app.add_option("--tile", line.tile,
                  "shadow and hemisphere pencils of one pixel in so many rows and columns")
       ->check(CLI::Range(1, kMaxSide))
@@ -230,8 +244,6 @@ int parse_and_run(int argc, char** argv) {
   app.add_option("--device", line.device, "what traces the rays")
       ->check(CLI::IsMember({"model", "rtl"}))
       ->capture_default_str();
-  app.add_option("--json", line.json, "file for figures");
-  app.add_flag("--quiet", line.quiet, "no progress");
   if (const auto exit_code = parse(app, argc, argv)) {
     return *exit_code;
   }

@@ -4,29 +4,23 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "figure_file.hpp"
 #include "format_sweep.hpp"
 #include "program.hpp"
 #include "progress.hpp"
 #include "raplas/output_file.hpp"
-#include "scene_names.hpp"
+#include "scene_options.hpp"
 #include "session.hpp"
 
 namespace raplas {
 namespace {
 
-struct CommandLine {
-  std::vector<std::string> scenes;
-  int width = 256;
-  int height = 256;
-  std::string csv;   ///< empty: none
-  std::string json;  ///< empty: none
-  bool quiet = false;
+struct CommandLine : SceneOptions {
+  std::string csv;  ///< empty: none
 };
 
 /// A scene with the errors of each format of kSweep.
@@ -35,10 +29,6 @@ struct Measured {
   SampleCounts counts;
   std::vector<FormatErrors> errors;
 };
-
-double percent(std::uint64_t count, std::uint64_t of) {
-  return of == 0 ? 0 : 100 * static_cast<double>(count) / static_cast<double>(of);
-}
 
 /// A measured number of a format on a scene.
 struct Value {
@@ -76,7 +66,7 @@ Measured measure_scene(const std::string& file, const CommandLine& line) {
   settings.scene = file;
   const Prepared prepared = prepare(settings);
   Measured m;
-  m.scene = settings.scene.stem().string();
+  m.scene = scene_name(file);
   Sample sample;
   {
     Progress progress(m.scene + ", double precision", line.quiet);
@@ -138,10 +128,10 @@ std::string csv_lines(const Measured& m) {
 }
 
 /// Adds the figures error.<scene>.* and error.<scene>.<format>.*; numbers that are not there are left out.
-void add_figures(nlohmann::ordered_json& json, const Measured& m, const std::string& command) {
+void add_figures(FigureFile& figures, const Measured& m) {
   const std::string scene = "error." + m.scene + ".";
   const auto add = [&](const std::string& name, const auto& value, const char* unit) {
-    json[scene + name] = {{"value", value}, {"unit", unit}, {"command", command}};
+    figures.add(scene + name, value, unit);
   };
   add("rays", m.counts.rays, "rays");
   add("rays_hit", m.counts.rays_hit, "rays");
@@ -160,43 +150,30 @@ void add_figures(nlohmann::ordered_json& json, const Measured& m, const std::str
 void run(const CommandLine& line, const std::string& command) {
   check_names(line.scenes);
   std::optional<OutputFile> csv;
-  std::optional<OutputFile> json;
   if (!line.csv.empty()) {
     csv.emplace(line.csv);
     csv->write(csv_head());
   }
-  if (!line.json.empty()) {
-    json.emplace(line.json);
-  }
-  nlohmann::ordered_json figures;
+  FigureFile figures(line.json, command);
   for (const std::string& scene : line.scenes) {
     const Measured m = measure_scene(scene, line);
     print_table(m, line);
     if (csv) {
       csv->write(csv_lines(m));
     }
-    add_figures(figures, m, command);
+    add_figures(figures, m);
   }
   if (csv) {
     csv->commit();
   }
-  if (json) {
-    json->write(figures.dump(2) + "\n");
-    json->commit();
-  }
+  figures.commit();
 }
 
 int parse_and_run(int argc, char** argv) {
-  constexpr int kMaxSide = 16384;
   CLI::App app{"Measure the errors of number formats of the ray-triangle test", "format_error"};
   CommandLine line;
-  app.add_option("scenes", line.scenes, "scenes (.json) or meshes (.obj .ply .stl .gltf .glb .bpt)")
-      ->required();
-  app.add_option("--width", line.width, "pixels")->check(CLI::Range(1, kMaxSide))->capture_default_str();
-  app.add_option("--height", line.height, "pixels")->check(CLI::Range(1, kMaxSide))->capture_default_str();
+  add_options(app, line);
   app.add_option("--csv", line.csv, "file for all numbers, one line a scene and format");
-  app.add_option("--json", line.json, "file for figures");
-  app.add_flag("--quiet", line.quiet, "no progress");
   if (const auto exit_code = parse(app, argc, argv)) {
     return *exit_code;
   }

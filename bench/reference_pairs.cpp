@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "raplas/pencil.hpp"
+#include "scene_pencils.hpp"
 
 namespace raplas {
 namespace {
@@ -117,16 +117,11 @@ SampledRay sampled_ray(const DeviceScene& scene, const glm::dvec3& origin, const
 
 Sample make_sample(const DeviceScene& scene, const Camera& camera, int width, int height,
                    const ShowProgress& progress) {
-  const CameraFrame frame(camera, width, height);
-  const int in_row = (width + kMaxColumns - 1) / kMaxColumns;
-  const int rows = (height + kMaxRows - 1) / kMaxRows;
+  const std::vector<Pencil> pencils = camera_pencils(camera, width, height);
   Sample sample{scene.triangles, {}};
-  sample.pencils.resize(static_cast<std::size_t>(in_row) * static_cast<std::size_t>(rows));
+  sample.pencils.resize(pencils.size());
   const auto work = [&](std::size_t k) {
-    const int x = static_cast<int>(k % static_cast<std::size_t>(in_row)) * kMaxColumns;
-    const int y = static_cast<int>(k / static_cast<std::size_t>(in_row)) * kMaxRows;
-    const Pencil pencil =
-        frame.pencil(x, y, std::min(kMaxColumns, width - x), std::min(kMaxRows, height - y));
+    const Pencil& pencil = pencils[k];
     SampledPencil& sampled = sample.pencils[k];
     sampled.origin = pencil.origin;
     sampled.rays.reserve(pencil.directions.size());

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "figure_file.hpp"
 #include "parallel.hpp"
 #include "program.hpp"
 #include "progress.hpp"
@@ -40,22 +40,20 @@ struct Row {
   std::vector<StressCounts> devices;
 };
 
-double percent(std::uint64_t count, std::uint64_t of) {
-  return of == 0 ? 0 : 100 * static_cast<double>(count) / static_cast<double>(of);
-}
-
-/// What is claimed of a case's property: of all devices, none or some of them.
-const char* promise_of(const StressCase& stress, const std::vector<StressDevice>& devices) {
-  const auto promised = std::count_if(devices.begin(), devices.end(), [&](const StressDevice& device) {
-    return is_promised(stress, device);
-  });
+/// Of which devices a case's property is claimed.
+std::string promise_of(const StressCase& stress, const std::vector<StressDevice>& devices) {
   if (stress.control) {
     return "must fail";
   }
-  if (promised == 0) {
-    return "known not to";
+  std::string promised;
+  std::size_t count = 0;
+  for (const StressDevice& device : devices) {
+    if (is_promised(stress, device)) {
+      promised += (count == 0 ? "" : " ") + std::string(device.name);
+      ++count;
+    }
   }
-  return static_cast<std::size_t>(promised) == devices.size() ? "promised" : "not of paper";
+  return count == 0 ? "known not to" : count == devices.size() ? "promised" : promised;
 }
 
 std::vector<StressDevice> chosen_devices(const std::vector<std::string>& names) {
@@ -132,7 +130,7 @@ void print_row(const Row& row, const std::vector<StressDevice>& devices, std::si
     }
     return std::pair(std::uint64_t{0}, std::uint64_t{0});
   }();
-  fmt::print("{:<{}}  {:<9}  {:<12}{:>8}{:>8}", row.stress.name, name_width, name_of(row.stress.property),
+  fmt::print("{:<{}}  {:<9}  {:<24}{:>8}{:>8}", row.stress.name, name_width, name_of(row.stress.property),
              promise_of(row.stress, devices), rays, hits);
   for (const StressCounts& counts : row.devices) {
     fmt::print("{:>18}", cell(counts));
@@ -148,7 +146,7 @@ void print_table(const std::vector<Row>& rows, const std::vector<StressDevice>& 
   fmt::print(
       "of each device: rays not as in exact arithmetic, %; rays that its error bound doesn't explain; rays "
       "that "
-      "break the property\n{:<{}}  {:<9}  {:<12}{:>8}{:>8}",
+      "break the property\n{:<{}}  {:<9}  {:<24}{:>8}{:>8}",
       "case", width, "property", "it is", "rays", "hits");
   for (const StressDevice& device : devices) {
     fmt::print("{:>18}", device.name);
@@ -203,30 +201,25 @@ std::string csv_of(const std::vector<Row>& rows, const std::vector<StressDevice>
   return text;
 }
 
-std::string figures_of(const std::vector<Row>& rows, const std::vector<StressDevice>& devices, int failed,
-                       const std::string& command) {
-  nlohmann::ordered_json json;
-  const auto add = [&](const std::string& name, const auto& value, const char* unit) {
-    json[name] = {{"value", value}, {"unit", unit}, {"command", command}};
-  };
-  add("stress.cases", rows.size(), "cases");
-  add("stress.failed_properties", failed, "properties");
+void add_figures(FigureFile& figures, const std::vector<Row>& rows, const std::vector<StressDevice>& devices,
+                 int failed) {
+  figures.add("stress.cases", rows.size(), "cases");
+  figures.add("stress.failed_properties", failed, "properties");
   const Holes holes = holes_of(rows, devices);
-  add("holes.rays", holes.rays, "rays");
+  figures.add("holes.rays", holes.rays, "rays");
   for (const auto& [device, escaped] : holes.escaped) {
-    add("holes." + device, escaped, "rays");
+    figures.add("holes." + device, escaped, "rays");
   }
   for (const Row& row : rows) {
     for (std::size_t k = 0; k < devices.size(); ++k) {
       const StressCounts& c = row.devices[k];
       if (c.rays > 0) {
         const std::string name = fmt::format("stress.{}.{}.", row.stress.name, devices[k].name);
-        add(name + "differing_percent", percent(c.differing, c.rays), "% of rays");
-        add(name + "broken", c.broken, "rays");
+        figures.add(name + "differing_percent", percent(c.differing, c.rays), "% of rays");
+        figures.add(name + "broken", c.broken, "rays");
       }
     }
   }
-  return json.dump(2) + "\n";
 }
 
 int run(const CommandLine& line, const std::string& command) {
@@ -239,13 +232,10 @@ int run(const CommandLine& line, const std::string& command) {
   }
   const std::vector<StressDevice> devices = chosen_devices(line.devices);
   std::optional<OutputFile> csv;
-  std::optional<OutputFile> json;
   if (!line.csv.empty()) {
     csv.emplace(line.csv);
   }
-  if (!line.json.empty()) {
-    json.emplace(line.json);
-  }
+  FigureFile figures(line.json, command);
   measure(rows, devices, line);
   print_table(rows, devices);
   int failed = 0;
@@ -262,10 +252,8 @@ int run(const CommandLine& line, const std::string& command) {
     csv->write(csv_of(rows, devices));
     csv->commit();
   }
-  if (json) {
-    json->write(figures_of(rows, devices, failed, command));
-    json->commit();
-  }
+  add_figures(figures, rows, devices, failed);
+  figures.commit();
   return failed == 0 ? 0 : 1;
 }
 

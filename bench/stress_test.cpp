@@ -144,7 +144,7 @@ TEST(ErrorBand, HoldsWhatTheGoldenModelFinds) {
 
 TEST(ErrorBand, OfLessThanTheRoundingsExplainsLess) {
   StressDevice strict = device("raplas");
-  strict.errors = {kRaplasErrors.input / 8, kRaplasErrors.operation / 8, 0, 0, true};
+  strict.errors = {kRaplasErrors.input / 8, kRaplasErrors.operation / 8, 0, 0, 0, true};
   EXPECT_GT(run(catalogued("shape.interpenetrating"), strict).unexplained, 0U);
   EXPECT_EQ(run(catalogued("shape.interpenetrating"), "raplas").unexplained, 0U);
 }

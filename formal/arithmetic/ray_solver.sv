@@ -17,15 +17,7 @@ module fp_add (input clk_i, input [23:0] a_i, b_i, output [23:0] sum_o);
   assign sum_o = line[95:72];
 endmodule
 
-module fp_cross (input clk_i, input [71:0] a_i, b_i, output [71:0] cross_o);
-  assign cross_o = 72'd0;
-endmodule
-
-module fp_dot3 (input clk_i, input [71:0] a_i, b_i, output [23:0] dot_o);
-  reg [263:0] line;
-  always @(posedge clk_i) line <= {line[239:0], b_i[71:48]};
-  assign dot_o = line[263:240];
-endmodule
+`include "free_products.svh"
 
 module miter (
   input clk_i, now,

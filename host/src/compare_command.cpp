@@ -2,13 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
-#include <optional>
 #include <stdexcept>
 #include <system_error>
 #include <vector>
 
 #include "commands.hpp"
+#include "figure_file.hpp"
 #include "hit_records.hpp"
 #include "raplas/output_file.hpp"
 
@@ -49,8 +48,8 @@ std::uint64_t differing_bits(const std::vector<Hit>& a, const std::vector<Hit>& 
   return bits;
 }
 
-/// The same rays hit something.
-bool same_hits(const std::vector<Hit>& a, const std::vector<Hit>& b) {
+/// The same rays hit something; which triangle, double precision says only of those that aren't any-hit.
+bool same_rays_hit(const std::vector<Hit>& a, const std::vector<Hit>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](const Hit& x, const Hit& y) { return x.hit == y.hit; });
 }
@@ -115,10 +114,7 @@ int run(const CompareCommand& command) {
   for (const std::string& name : names) {
     pictures.push_back(std::make_unique<OutputFile>(command.folder / (name + ".png")));
   }
-  std::optional<OutputFile> json;
-  if (!settings.json.empty()) {
-    json.emplace(settings.json);
-  }
+  FigureFile figures(settings.json, command.command_line);
   const Prepared prepared = prepare(settings);
   std::vector<Entry> entries;
   for (std::size_t k = 0; k < names.size(); ++k) {
@@ -133,43 +129,36 @@ int run(const CompareCommand& command) {
   const Entry& last = entries.back();
   print_table(entries, reference);
 
-  nlohmann::ordered_json figures;
-  const auto figure = [&](const char* key, const auto& value, const char* unit) {
-    figures[key] = {{"value", value}, {"unit", unit}, {"command", command.command_line}};
-  };
   bool equal = true;
   if (kWithRtl) {
     const std::uint64_t bits = differing_bits(model.hits, last.hits);
     const std::uint64_t counters = differing_counters(model.run.counters, last.run.counters);
     fmt::print("\nmodel against rtl: {} hits, {} differing bits, {} differing counters\n", last.hits.size(),
                bits, counters);
-    figure("render.differing_bits", bits, "bits");
-    figure("render.differing_counters", counters, "counters");
+    figures.add("render.differing_bits", bits, "bits");
+    figures.add("render.differing_counters", counters, "counters");
     equal = bits == 0 && counters == 0 && !last.hits.empty();
   } else {
     fmt::print("\nmodel against rtl: not compared, this build has no Verilator model\n");
   }
   if (settings.device.exact) {
-    // of any-hit rays, those to the light, only whether they hit
-    equal =
-        equal && pixels_off(last.picture, reference.picture, 0) == 0 && same_hits(model.hits, reference.hits);
-    fmt::print("exact against double precision: {}\n", equal ? "the same picture" : "NOT the same");
+    const bool exact =
+        pixels_off(last.picture, reference.picture, 0) == 0 && same_rays_hit(last.hits, reference.hits);
+    fmt::print("exact against double precision: {}\n", exact ? "the same picture" : "not the same picture");
+    equal = equal && exact;
   }
-  figure("render.hits_compared", kWithRtl ? last.hits.size() : 0, "hits");
-  figure("render.pixels_off_reference", pixels_off(last.picture, reference.picture, 0), "pixels");
-  figure("render.pixels_off_reference_over_2_levels", pixels_off(last.picture, reference.picture, 2),
-         "pixels");
-  figure("render.cycles", last.run.cycles(), "cycles");
-  figure("render.rays", last.run.rays(), "rays");
-  figure("render.rays_per_cycle", rate(last.run.rays(), static_cast<double>(last.run.cycles())),
-         "rays/cycle");
-  figure("render.pixels", last.picture.size() / 3, "pixels");
-  figure(kWithRtl ? "sim.cycles_per_second" : "model.cycles_per_second", simulated_rate(last.run),
-         "cycles/s");
-  if (json) {
-    json->write(figures.dump(2) + "\n");
-    json->commit();
-  }
+  figures.add("render.hits_compared", kWithRtl ? last.hits.size() : 0, "hits");
+  figures.add("render.pixels_off_reference", pixels_off(last.picture, reference.picture, 0), "pixels");
+  figures.add("render.pixels_off_reference_over_2_levels", pixels_off(last.picture, reference.picture, 2),
+              "pixels");
+  figures.add("render.cycles", last.run.cycles(), "cycles");
+  figures.add("render.rays", last.run.rays(), "rays");
+  figures.add("render.rays_per_cycle", rate(last.run.rays(), static_cast<double>(last.run.cycles())),
+              "rays/cycle");
+  figures.add("render.pixels", last.picture.size() / 3, "pixels");
+  figures.add(kWithRtl ? "sim.cycles_per_second" : "model.cycles_per_second", simulated_rate(last.run),
+              "cycles/s");
+  figures.commit();
   return equal ? 0 : 1;
 }
 

@@ -13,12 +13,12 @@ constexpr int kSide = kMaxRows;  // rays in a row of a pencil
 
 }  // namespace
 
-std::vector<Pencil> camera_pencils(const Scene& scene, int width, int height) {
-  const CameraFrame camera(scene.camera, width, height);
+std::vector<Pencil> camera_pencils(const Camera& camera, int width, int height) {
+  const CameraFrame frame(camera, width, height);
   std::vector<Pencil> pencils;
   for (int y = 0; y < height; y += kSide) {
     for (int x = 0; x < width; x += kSide) {
-      pencils.push_back(camera.pencil(x, y, std::min(kSide, width - x), std::min(kSide, height - y)));
+      pencils.push_back(frame.pencil(x, y, std::min(kSide, width - x), std::min(kSide, height - y)));
     }
   }
   return pencils;

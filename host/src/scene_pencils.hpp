@@ -11,7 +11,7 @@
 namespace raplas {
 
 /// Pencils of at most 16x16 rays for a picture of width x height pixels, row by row.
-[[nodiscard]] std::vector<Pencil> camera_pencils(const Scene& scene, int width, int height);
+[[nodiscard]] std::vector<Pencil> camera_pencils(const Camera& camera, int width, int height);
 
 /// A pixel that shows a surface, not the light.
 struct SeenPixel {

@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
-#include <optional>
 #include <stdexcept>
 #include <system_error>
 #include <vector>
 
 #include "commands.hpp"
+#include "figure_file.hpp"
 #include "heat_map.hpp"
 #include "progress.hpp"
 #include "raplas/output_file.hpp"
@@ -24,21 +23,6 @@ constexpr int kSide = kMaxRows;  // rays in a row of a pencil
 
 /// So many spheres does the clocked model of profile paper test in some seconds.
 constexpr std::uint64_t kPaperSpheres = 20'000'000;
-
-double per(std::uint64_t count, std::uint64_t of) {
-  return of == 0 ? 0 : static_cast<double>(count) / static_cast<double>(of);
-}
-
-/// The names that a table's line has for its figures, in the JSON file and in its columns.
-struct Figures {
-  nlohmann::ordered_json json;
-  std::string command;
-
-  template <typename Value>
-  void add(const std::string& name, const Value& value, const char* unit) {
-    json[name] = {{"value", value}, {"unit", unit}, {"command", command}};
-  }
-};
 
 /// A kind of pencils of the scene with all that was measured of it.
 struct Measured {
@@ -112,20 +96,21 @@ void print_table(const std::string& name, const Measured& m, std::size_t triangl
   std::fflush(stdout);
 }
 
-void add_counts(Figures& figures, const std::string& name, const SkipCounts& counts) {
+void add_counts(FigureFile& figures, const std::string& name, const SkipCounts& counts) {
   figures.add(name + ".sphere_tests_per_ray", per(counts.spheres, counts.rays), "tests/ray");
   figures.add(name + ".vertex_tests_per_ray", per(counts.vertices, counts.rays), "tests/ray");
   figures.add(name + ".pairs_per_ray", per(counts.pairs, counts.rays), "pairs/ray");
 }
 
-void add_clocks(Figures& figures, const std::string& name, const SkipCounts& counts, const BusyClocks& busy) {
+void add_clocks(FigureFile& figures, const std::string& name, const SkipCounts& counts,
+                const BusyClocks& busy) {
   figures.add(name + ".rays_per_clock", per(counts.rays, busy.clocks), "rays/clock");
   figures.add(name + ".busy_percent", 100 * per(busy.either, busy.clocks), "% of clocks");
   figures.add(name + ".testers_busy_percent", 100 * per(busy.objects, busy.clocks), "% of clocks");
   figures.add(name + ".pairs_busy_percent", 100 * per(busy.pairs, busy.clocks), "% of clocks");
 }
 
-void add_figures(Figures& figures, const std::string& scene, const Measured& m, std::size_t triangles) {
+void add_figures(FigureFile& figures, const std::string& scene, const Measured& m, std::size_t triangles) {
   const std::string tail = "." + scene + "." + m.kind;
   add_counts(figures, "skip" + tail, m.stream.counts);
   add_clocks(figures, "skip" + tail, m.stream.counts, m.stream.busy);
@@ -197,7 +182,7 @@ std::vector<Pencil> mixed_pencils(const Measured& camera, const Measured& shadow
 
 /// The same stream on model and RTL. Returns the number of differences: rays and counters, cycles among them.
 std::uint64_t compare_rtl(const Prepared& prepared, const SkipCommand& command,
-                          const std::vector<Pencil>& pencils, Figures& figures) {
+                          const std::vector<Pencil>& pencils, FigureFile& figures) {
   struct Run {
     std::vector<std::vector<Hit>> hits;
     Counters counters;
@@ -249,10 +234,7 @@ int run(const SkipCommand& command) {
         fmt::format("{}: cannot be made a folder ({})", command.folder.string(), error.message()));
   }
   HeatMaps maps(command.folder);
-  std::optional<OutputFile> json;
-  if (!settings.json.empty()) {
-    json.emplace(settings.json);
-  }
+  FigureFile figures(settings.json, command.command_line);
   const Prepared prepared = prepare(settings);
   const std::size_t triangles = prepared.tree.scene.triangles.size();
   const std::string name = command.name.empty() ? settings.scene.stem().string() : command.name;
@@ -261,7 +243,7 @@ int run(const SkipCommand& command) {
 
   Measured camera;
   camera.kind = "camera";
-  camera.pencils = camera_pencils(prepared.scene, settings.render.width, settings.render.height);
+  camera.pencils = camera_pencils(prepared.scene.camera, settings.render.width, settings.render.height);
   camera.in_row = static_cast<std::size_t>((settings.render.width + kSide - 1) / kSide);
   measure(prepared, command, camera);
   print_table(name, camera, triangles);
@@ -276,7 +258,6 @@ int run(const SkipCommand& command) {
     print_table(name, shadow, triangles);
   }
 
-  Figures figures{{}, command.command_line};
   figures.add("skip." + name + ".triangles", triangles, "triangles");
   std::uint64_t different = 0;
   for (const Measured* m : {&camera, &shadow}) {
@@ -291,10 +272,7 @@ int run(const SkipCommand& command) {
   }
   maps.write(camera);
   maps.commit();
-  if (json) {
-    json->write(figures.json.dump(2) + "\n");
-    json->commit();
-  }
+  figures.commit();
   return different == 0 ? 0 : 1;
 }
 

@@ -164,8 +164,6 @@ template <typename F>
   kept.word.rival = open || (best.rival && best.rival_rough);
   if (open) {
     kept.word.rival_rough = nearest ? best.unsure || best.rough : hit.unsure || hit.rough;
-  }
-  if (open) {
     kept.word.rival_triangle = nearest ? best.nearest.triangle : r.triangle;
   }
   if (nearest) {

@@ -1,4 +1,4 @@
-#include "configuration.hpp"
+#include "configuration_list.hpp"
 
 #include <gtest/gtest.h>
 

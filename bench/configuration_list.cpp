@@ -1,4 +1,4 @@
-#include "configuration.hpp"
+#include "configuration_list.hpp"
 
 #ifdef RAPLAS_WITH_EMBREE
 #include "embree_device.hpp"

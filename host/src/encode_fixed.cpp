@@ -49,8 +49,8 @@ std::uint32_t root_up(std::int64_t square) {
   return static_cast<std::uint32_t>(root);
 }
 
-/// Certified hits: u' and v' of a triangle scaled to this, longest edge times its error coefficient, are off
-/// by at most kBand of docs/exact.md.
+/// What a triangle's edges and normal are multiplied by, so that the error of its u' and v' is what the
+/// pencils' bands are made for: certified_band.hpp.
 double certified_scale(const glm::dvec3& v0, const glm::dvec3& e1, const glm::dvec3& e2) {
   const double longest = std::max(glm::length(e1), glm::length(e2));
   const double coefficient = kOriginError * (glm::length(v0) + 1) + kEdgeError * longest;

@@ -103,9 +103,8 @@ using Counters = std::array<std::uint64_t, kNumCounters>;
 
 /// Rays of an exact device by what the host did for them in double precision.
 struct Retests {
-  std::uint64_t rays = 0;  ///< all
-  std::uint64_t hits =
-      0;  ///< it tested the triangle that the unit found, as every hit's t, u and v are its own
+  std::uint64_t rays = 0;    ///< all
+  std::uint64_t hits = 0;    ///< it tested the triangle that the unit found: t, u and v are the host's
   std::uint64_t rivals = 0;  ///< and another one that the unit couldn't tell from it
   std::uint64_t traced = 0;  ///< all triangles, through the sphere tree
   double seconds = 0;        ///< of all that

@@ -51,8 +51,8 @@ struct FixedPencil {
 [[nodiscard]] FixedPencil encode_fixed(const Pencil& pencil, double vertex_error = kMaxVertexError,
                                        bool certify = false);
 
-/// Whether hits of the pencil can be certified: its origin is in the unit ball, and no ray is more than twice
-/// as long as its depth.
+/// Whether hits of the pencil can be certified: its origin is in the unit ball, and no ray is longer than 64
+/// times its depth.
 [[nodiscard]] bool can_certify(const Pencil& pencil);
 
 /// A result as the renderer takes it; `ray` as in FixedPencilMemory::rays.
